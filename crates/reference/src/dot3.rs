@@ -1,0 +1,46 @@
+//! `dot3`: the diffuse term of one light on a perturbed normal, I = saturate(N · L) · M_d.
+//!
+//! Source: the third article, *Bumpmapping with DOT3 and normalisation cube maps*; the `arithmetic` normaliser divides by
+//! the length, where the article looks the direction up in a cube map.
+//!
+//! Spaces: N and L in the same space (tangent space in the article). L need not be unit length: it is the interpolated
+//! vector toward the light. N is used as it is, since the article does not renormalise what comes from the normal map.
+
+use glam::DVec3;
+
+use crate::vector::{normalize, normalize_or_zero, saturate};
+
+/// As published: `normalize(L)` without a guard, so the zero vector gives NaN.
+#[must_use]
+pub fn published(normal: DVec3, light: DVec3, diffuse: DVec3) -> DVec3 {
+    saturate(normal.dot(normalize(light))) * diffuse
+}
+
+/// Hardened: the zero light vector lights nothing, and vectors of any finite length keep their direction.
+#[must_use]
+pub fn hardened(normal: DVec3, light: DVec3, diffuse: DVec3) -> DVec3 {
+    saturate(normal.dot(normalize_or_zero(light))) * diffuse
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::{hardened, published};
+
+    #[test]
+    fn facing_grazing_and_behind() {
+        let white = DVec3::ONE;
+        assert_eq!(published(DVec3::Z, 3.0 * DVec3::Z, white), DVec3::ONE);
+        assert_eq!(published(DVec3::Z, DVec3::X, white), DVec3::ZERO);
+        assert_eq!(published(DVec3::Z, -DVec3::Z, white), DVec3::ZERO);
+    }
+
+    #[test]
+    fn zero_light_is_the_defect_and_its_cure() {
+        assert!(published(DVec3::Z, DVec3::ZERO, DVec3::ONE).is_nan());
+        assert_eq!(hardened(DVec3::Z, DVec3::ZERO, DVec3::ONE), DVec3::ZERO);
+        assert_eq!(hardened(DVec3::Z, 1e-23 * DVec3::Z, DVec3::ONE), DVec3::ONE);
+        assert_eq!(hardened(DVec3::Z, 2e19 * DVec3::Z, DVec3::ONE), DVec3::ONE);
+    }
+}

@@ -1,0 +1,51 @@
+//! Float64 truth for every technique of the library, one file a technique, written from the published formulas.
+//!
+//! This crate is an **oracle**: it knows nothing of shaders and shares no code with them. What it computes is what the formula
+//! says, carried out in float64; how far a shader may be from it is decided elsewhere (`bossage-conformance`).
+//!
+//! Conventions, fixed for the whole project: T along +u, B along +v, N out of the surface, B = w · (N × T); height h in
+//! [0, 1] with 1 the highest; elevation over the polygon z(h) = scale · h + bias in UV units; V and L are unit vectors from the
+//! surface to the eye and to the light; colours are linear.
+//!
+//! Two forms where a technique has a known fault: **published**, the formula exactly as printed, faults included, and
+//! **hardened**, the same effect with the fault cured. A published form returns NaN or infinity where the formula does.
+//!
+//! ```
+//! use bossage_assets::{EdgeMode, HeightField};
+//! use bossage_reference::relief_truth::{Ray, Status, first_hit};
+//! use glam::{DVec2, DVec3};
+//!
+//! let field = HeightField::from_fn(8, 8, |_, _| 0.75);
+//! let view_ts = DVec3::new(0.6, 0.0, 0.8);
+//! let ray = Ray::through(DVec2::splat(0.5), view_ts, 0.04, -0.04).expect("the view looks down on the surface");
+//! let hit = first_hit(&field, EdgeMode::Wrap, &ray);
+//! assert_eq!(hit.status, Status::Hit);
+//! assert!((hit.t - 0.25).abs() < 1e-15);
+//! ```
+
+pub mod blinn_phong;
+pub mod codec_biased;
+pub mod codec_unorm;
+pub mod dot3;
+pub mod frame_from_uv;
+pub mod frame_mikktspace;
+pub mod height_to_normal;
+pub mod height_to_normal_forward;
+pub mod light_to_tangent;
+pub mod normal_transform;
+pub mod parallax_offset;
+pub mod parallax_offset_limited;
+pub mod relief_truth;
+pub mod srgb;
+pub mod surface;
+pub mod texture;
+pub mod vector;
+
+/// Which form of a technique.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Form {
+    /// The formula as printed, faults included.
+    Published,
+    /// The same effect with the known faults cured.
+    Hardened,
+}
