@@ -1,0 +1,106 @@
+//! From the manifest's words to wgpu's: bindings and located values of entry points.
+
+use bossage_translate::manifest::{Binding, Entry, Kind, Texture, Varying};
+
+use crate::error::Error;
+
+/// A value at a location: a vertex attribute or a fragment output, of 32-bit floats.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Located {
+    pub(crate) name: String,
+    pub(crate) location: u32,
+    pub(crate) components: u32,
+}
+
+/// The values of a list that have a location, in the order of their locations.
+pub(crate) fn located(entry: &Entry, values: &[Varying]) -> Result<Vec<Located>, Error> {
+    let with_location = values.iter().filter_map(|value| value.location.map(|location| (value, location)));
+    let read = |(value, location): (&Varying, u32)| {
+        let components = float_components(&value.ty)
+            .ok_or_else(|| misfit(entry, &value.name, format!("its type `{}` is not of 32-bit floats", value.ty)))?;
+        Ok(Located { name: value.name.clone(), location, components })
+    };
+    let mut list = with_location.map(read).collect::<Result<Vec<_>, Error>>()?;
+    list.sort_by_key(|value| value.location);
+    Ok(list)
+}
+
+/// How many floats a WGSL type of 32-bit floats has, unless it is another type.
+fn float_components(ty: &str) -> Option<u32> {
+    match ty.replace("<f32>", "f").as_str() {
+        "f32" => Some(1),
+        "vec2f" => Some(2),
+        "vec3f" => Some(3),
+        "vec4f" => Some(4),
+        _ => None,
+    }
+}
+
+/// What a binding is, in the words of a message.
+pub(crate) fn describe(binding: &Binding) -> String {
+    match binding.kind {
+        Kind::UniformBuffer => "uniform buffer".to_owned(),
+        Kind::ReadOnlyStorageBuffer => "read-only storage buffer".to_owned(),
+        Kind::StorageBuffer => "storage buffer".to_owned(),
+        Kind::Texture | Kind::DepthTexture | Kind::StorageTexture => binding.ty.clone(),
+        Kind::Sampler => "sampler".to_owned(),
+        Kind::ComparisonSampler => "comparison sampler".to_owned(),
+    }
+}
+
+/// wgpu's type of a bound buffer; `None` for what is no buffer.
+pub(crate) fn buffer_type(kind: Kind) -> Option<wgpu::BindingType> {
+    let ty = match kind {
+        Kind::UniformBuffer => wgpu::BufferBindingType::Uniform,
+        Kind::ReadOnlyStorageBuffer => wgpu::BufferBindingType::Storage { read_only: true },
+        Kind::StorageBuffer => wgpu::BufferBindingType::Storage { read_only: false },
+        Kind::Texture | Kind::DepthTexture | Kind::StorageTexture | Kind::Sampler | Kind::ComparisonSampler => {
+            return None;
+        }
+    };
+    Some(wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None })
+}
+
+/// wgpu's type of a bound texture of floats, plane or cube.
+pub(crate) fn texture_type(entry: &Entry, binding: &Binding, filterable: bool) -> Result<wgpu::BindingType, Error> {
+    let texture = binding.texture.as_ref();
+    let texture = texture.ok_or_else(|| misfit(entry, &binding.name, "the manifest doesn't describe it".to_owned()))?;
+    let view_dimension = view_dimension(texture)
+        .ok_or_else(|| misfit(entry, &binding.name, format!("the runner has no textures of type {}", binding.ty)))?;
+    Ok(wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable },
+        view_dimension,
+        multisampled: false,
+    })
+}
+
+fn view_dimension(texture: &Texture) -> Option<wgpu::TextureViewDimension> {
+    if texture.arrayed || texture.multisampled || texture.sample_type != "f32" {
+        return None;
+    }
+    match texture.dimension.as_str() {
+        "2d" => Some(wgpu::TextureViewDimension::D2),
+        "cube" => Some(wgpu::TextureViewDimension::Cube),
+        _ => None,
+    }
+}
+
+/// An entry of the manifest that the runner can't serve.
+pub(crate) fn misfit(entry: &Entry, name: &str, problem: String) -> Error {
+    Error::Interface { entry: entry.name.clone(), name: name.to_owned(), problem }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn float_types_are_read_in_both_spellings() {
+        for (ty, components) in [("f32", 1), ("vec2f", 2), ("vec3<f32>", 3), ("vec4<f32>", 4)] {
+            assert_eq!(float_components(ty), Some(components), "{ty}");
+        }
+        for ty in ["u32", "vec2u", "vec2<i32>", "mat2x2<f32>", "vec5f", "f16"] {
+            assert_eq!(float_components(ty), None, "{ty}");
+        }
+    }
+}

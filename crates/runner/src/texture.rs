@@ -1,0 +1,197 @@
+//! Pictures and samplers as a job gives them.
+//!
+//! Texels are handed over as they are: no colour space is applied here (all formats are linear), no mips are made.
+
+use crate::error::Error;
+
+/// Texel formats.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum TexelFormat {
+    /// Four bytes, each read as byte / 255.
+    Rgba8Unorm,
+    /// Four floats.
+    Rgba32Float,
+    /// One float.
+    R32Float,
+}
+
+impl TexelFormat {
+    /// Bytes a texel.
+    #[must_use]
+    pub fn texel_bytes(self) -> usize {
+        match self {
+            Self::Rgba8Unorm | Self::R32Float => 4,
+            Self::Rgba32Float => 16,
+        }
+    }
+
+    pub(crate) fn wgpu(self) -> wgpu::TextureFormat {
+        match self {
+            Self::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+            Self::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+            Self::R32Float => wgpu::TextureFormat::R32Float,
+        }
+    }
+}
+
+/// How the layers of a texture are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum TextureDimension {
+    /// One layer.
+    Plane,
+    /// Six layers: +x, −x, +y, −y, +z, −z.
+    Cube,
+}
+
+impl TextureDimension {
+    /// How many layers.
+    #[must_use]
+    pub fn layers(self) -> u32 {
+        match self {
+            Self::Plane => 1,
+            Self::Cube => 6,
+        }
+    }
+}
+
+/// A texture with its mip chain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureData {
+    /// Width of level 0.
+    pub width: u32,
+    /// Height of level 0.
+    pub height: u32,
+    /// The texels' format.
+    pub format: TexelFormat,
+    /// Plane or cube.
+    pub dimension: TextureDimension,
+    /// The levels, largest first, each `max(1, size >> level)` wide and high: rows from v = 0 on, tightly packed, the
+    /// layers one after the other.
+    pub levels: Vec<Vec<u8>>,
+}
+
+impl TextureData {
+    /// A plane of one level in [`TexelFormat::Rgba8Unorm`].
+    #[must_use]
+    pub fn rgba8(width: u32, height: u32, texels: &[[u8; 4]]) -> Self {
+        Self::plane(width, height, TexelFormat::Rgba8Unorm, bytemuck::cast_slice(texels))
+    }
+
+    /// A plane of one level in [`TexelFormat::Rgba32Float`].
+    #[must_use]
+    pub fn rgba32f(width: u32, height: u32, texels: &[[f32; 4]]) -> Self {
+        Self::plane(width, height, TexelFormat::Rgba32Float, bytemuck::cast_slice(texels))
+    }
+
+    /// A plane of one level in [`TexelFormat::R32Float`].
+    #[must_use]
+    pub fn r32f(width: u32, height: u32, texels: &[f32]) -> Self {
+        Self::plane(width, height, TexelFormat::R32Float, bytemuck::cast_slice(texels))
+    }
+
+    fn plane(width: u32, height: u32, format: TexelFormat, bytes: &[u8]) -> Self {
+        Self { width, height, format, dimension: TextureDimension::Plane, levels: vec![bytes.to_vec()] }
+    }
+
+    /// Adds the next smaller level.
+    #[must_use]
+    pub fn with_level<T: bytemuck::NoUninit>(mut self, texels: &[T]) -> Self {
+        self.levels.push(bytemuck::cast_slice(texels).to_vec());
+        self
+    }
+
+    /// Width and height of a level.
+    #[must_use]
+    pub fn level_size(&self, level: u32) -> (u32, u32) {
+        let halved = |size: u32| size.checked_shr(level).unwrap_or(0).max(1);
+        (halved(self.width), halved(self.height))
+    }
+
+    /// Checks sizes, the number of levels and the length of each.
+    ///
+    /// # Errors
+    /// [`Error::Texture`], naming the level that is off.
+    pub fn validate(&self, name: &str) -> Result<(), Error> {
+        let wrong = |problem: String| Err(Error::Texture { name: name.to_owned(), problem });
+        if self.width == 0 || self.height == 0 {
+            return wrong(format!("its size is {} x {}", self.width, self.height));
+        }
+        if self.dimension == TextureDimension::Cube && self.width != self.height {
+            return wrong(format!("a cube's faces are square, not {} x {}", self.width, self.height));
+        }
+        let most = self.width.max(self.height).ilog2() as usize + 1;
+        if self.levels.is_empty() || self.levels.len() > most {
+            return wrong(format!("it has {} levels; 1 to {most} are possible", self.levels.len()));
+        }
+        match (0..).zip(&self.levels).find(|(level, bytes)| bytes.len() != self.level_bytes(*level)) {
+            Some((level, bytes)) => {
+                wrong(format!("level {level} has {} bytes instead of {}", bytes.len(), self.level_bytes(level)))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn level_bytes(&self, level: u32) -> usize {
+        let (width, height) = self.level_size(level);
+        width as usize * height as usize * self.dimension.layers() as usize * self.format.texel_bytes()
+    }
+}
+
+/// What lies beyond the edge of a texture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum AddressMode {
+    /// It repeats.
+    #[default]
+    Wrap,
+    /// It repeats mirrored.
+    Mirror,
+    /// The edge texel goes on.
+    Clamp,
+}
+
+impl AddressMode {
+    pub(crate) fn wgpu(self) -> wgpu::AddressMode {
+        match self {
+            Self::Wrap => wgpu::AddressMode::Repeat,
+            Self::Mirror => wgpu::AddressMode::MirrorRepeat,
+            Self::Clamp => wgpu::AddressMode::ClampToEdge,
+        }
+    }
+}
+
+/// How texels are mixed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Filter {
+    /// The closest only.
+    Nearest,
+    /// The linear mix.
+    #[default]
+    Linear,
+}
+
+/// A sampler.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SamplerSettings {
+    /// In all directions.
+    pub address: AddressMode,
+    /// Inside a level, for enlarging and shrinking.
+    pub filter: Filter,
+    /// Between levels.
+    pub mip_filter: Filter,
+    /// Largest anisotropy, 1 = none (more needs linear filters everywhere).
+    pub anisotropy: u16,
+}
+
+impl Default for SamplerSettings {
+    fn default() -> Self {
+        Self { address: AddressMode::Wrap, filter: Filter::Linear, mip_filter: Filter::Linear, anisotropy: 1 }
+    }
+}
+
+impl SamplerSettings {
+    /// Whether texels or levels are mixed.
+    #[must_use]
+    pub fn is_filtering(&self) -> bool {
+        self.filter == Filter::Linear || self.mip_filter == Filter::Linear
+    }
+}
