@@ -1,0 +1,71 @@
+//! The table of techniques: where each one's code lives, which forms it has, and where it comes from.
+
+use crate::feature_set::Form;
+
+/// One technique of the library.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Technique {
+    /// The name that shader file, reference file, case and snapshot share.
+    pub id: &'static str,
+    /// The files that hold it, below `shaders/`.
+    pub files: &'static [&'static str],
+    /// The forms that exist.
+    pub forms: &'static [Form],
+    /// Where the published form comes from.
+    pub source: &'static str,
+}
+
+impl Technique {
+    /// The technique of that name.
+    #[must_use]
+    pub fn find(id: &str) -> Option<&'static Technique> {
+        TECHNIQUES.iter().find(|technique| technique.id == id)
+    }
+}
+
+const BOTH: &[Form] = &[Form::Published, Form::Hardened];
+const HARDENED: &[Form] = &[Form::Hardened];
+const PARALLAX_BUMP: &str = "Dachsbacher, Parallax Bump Mapping (PC Underground)";
+const DOT3: &str = "Pettersen, Bumpmapping (DOT3 and normalisation cube maps)";
+const HEIGHT_MAPS: &str = "Normal Maps und Height Maps (OpenGL tutorials)";
+
+/// Every technique, sorted by name.
+pub const TECHNIQUES: &[Technique] = &[
+    Technique { id: "blinn_phong", files: &["techniques/blinn_phong.wesl"], forms: BOTH, source: PARALLAX_BUMP },
+    Technique { id: "codec_biased", files: &["techniques/codec_biased.wesl"], forms: BOTH, source: HEIGHT_MAPS },
+    Technique { id: "codec_unorm", files: &["techniques/codec_unorm.wesl"], forms: BOTH, source: HEIGHT_MAPS },
+    Technique { id: "dot3", files: &["techniques/dot3.wesl"], forms: BOTH, source: DOT3 },
+    Technique {
+        id: "frame_from_uv",
+        files: &["techniques/frame_from_uv.wesl", "entry/frame_from_uv.wesl"],
+        forms: BOTH,
+        source: PARALLAX_BUMP,
+    },
+    Technique {
+        id: "frame_mikktspace",
+        files: &["techniques/frame_mikktspace.wesl"],
+        forms: HARDENED,
+        source: "Mikkelsen, Simulation of Wrinkled Surfaces Revisited (2008)",
+    },
+    Technique {
+        id: "height_to_normal",
+        files: &["techniques/height_to_normal.wesl", "entry/height_to_normal.wesl"],
+        forms: HARDENED,
+        source: "central differences; no single source",
+    },
+    Technique {
+        id: "height_to_normal_forward",
+        files: &["techniques/height_to_normal_forward.wesl", "entry/height_to_normal_forward.wesl"],
+        forms: BOTH,
+        source: HEIGHT_MAPS,
+    },
+    Technique { id: "light_to_tangent", files: &["techniques/light_to_tangent.wesl"], forms: HARDENED, source: PARALLAX_BUMP },
+    Technique { id: "normal_transform", files: &["techniques/normal_transform.wesl"], forms: BOTH, source: PARALLAX_BUMP },
+    Technique { id: "parallax_offset", files: &["techniques/parallax_offset.wesl"], forms: BOTH, source: PARALLAX_BUMP },
+    Technique {
+        id: "parallax_offset_limited",
+        files: &["techniques/parallax_offset_limited.wesl"],
+        forms: HARDENED,
+        source: PARALLAX_BUMP,
+    },
+];
