@@ -1,0 +1,179 @@
+//! What to draw: per object its mesh, feature set, uniforms by the shader's names and textures.
+//!
+//! Every draw carries *all* uniforms and textures that any feature set could ask for, neutral where the material has none: a
+//! flat normal, height 0 with relief 0, white albedo, lights of radiance 0, cutoff 0. So one list serves the planned shader
+//! and the all-effects shader alike, and both describe the same surface.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use bossage_assets::{EdgeMode, Mesh};
+use bossage_shaders::{Albedo, FeatureSet};
+use glam::{DMat4, DVec3};
+
+use crate::camera::Matrices;
+use crate::facts::MaterialFacts;
+use crate::model::{AlphaMode, Light, Material, Object, Scene, TechniquePin};
+use crate::plan::Plan;
+use crate::schema::MAX_LIGHTS;
+use crate::textures::Texture;
+
+/// One object with all a renderer needs.
+#[derive(Clone, Debug)]
+pub struct Draw {
+    /// The object's name.
+    pub object: String,
+    /// The material's name.
+    pub material: String,
+    /// The permutation to draw it with.
+    pub features: FeatureSet,
+    /// The mesh, local space, with tangents.
+    pub mesh: Arc<Mesh>,
+    /// Values by name (`object.clip_from_local`), matrices column by column, arrays flat.
+    pub uniforms: BTreeMap<String, Vec<f32>>,
+    /// `albedo_map`, `normal_map`, `height_map`.
+    pub textures: BTreeMap<String, Arc<Texture>>,
+    /// Address mode of `surface_sampler`, on both axes.
+    pub edge: EdgeMode,
+}
+
+/// The draws of a scene as planned, in scene order. Objects whose every fragment would be discarded are left out.
+#[must_use]
+pub fn draws(scene: &Scene, plan: &Plan) -> Vec<Draw> {
+    let drawn = |object: &Object| plan.materials[object.material].drawn;
+    build(scene, &|material| plan.features(material), &drawn)
+}
+
+/// The draws of a scene with feature sets of the caller's choosing, by material index; every object is drawn.
+#[must_use]
+pub fn draws_with(scene: &Scene, features: impl Fn(usize) -> FeatureSet) -> Vec<Draw> {
+    build(scene, &features, &|_| true)
+}
+
+fn build(scene: &Scene, features: &dyn Fn(usize) -> FeatureSet, drawn: &dyn Fn(&Object) -> bool) -> Vec<Draw> {
+    let prepared: Vec<Prepared> = scene.materials.iter().map(Prepared::new).collect();
+    let draw = |object: &Object| {
+        let prepared = &prepared[object.material];
+        let features = features(object.material);
+        Draw {
+            object: object.name.clone(),
+            material: prepared.material.name.clone(),
+            features,
+            mesh: object.mesh.clone(),
+            uniforms: uniforms(scene, object, prepared, &features),
+            textures: prepared.textures.clone(),
+            edge: prepared.material.address,
+        }
+    };
+    scene.objects.iter().filter(|object| drawn(object)).map(draw).collect()
+}
+
+/// A material with its textures uploaded once for all its objects.
+struct Prepared<'a> {
+    material: &'a Material,
+    facts: MaterialFacts,
+    textures: BTreeMap<String, Arc<Texture>>,
+}
+
+impl<'a> Prepared<'a> {
+    fn new(material: &'a Material) -> Self {
+        let albedo = material.albedo.map.as_ref().map_or_else(|| Texture::constant([1.0; 4]), |(_, map)| Texture::color(map));
+        let normal = material.normal.as_ref().map_or_else(flat_normal, |normal| Texture::normal(&normal.map));
+        let height =
+            material.height.as_ref().map_or_else(|| Texture::constant_height(0.0), |height| Texture::height(&height.field));
+        let textures = [("albedo_map", albedo), ("normal_map", normal), ("height_map", height)];
+        let textures = textures.into_iter().map(|(name, texture)| (name.to_owned(), Arc::new(texture))).collect();
+        Self { material, facts: MaterialFacts::of(material), textures }
+    }
+}
+
+/// (0, 0, 1) exactly, by the biased codec: (128 − 128)/127 = 0, which no unorm byte decodes to.
+fn flat_normal() -> Texture {
+    Texture::constant_bytes([128, 128, 255, 255])
+}
+
+fn normal_decode(material: &Material) -> [f32; 2] {
+    let codec = material.normal.as_ref().map_or(bossage_assets::NormalCodec::Biased, |normal| normal.map.codec);
+    codec.scale_bias()
+}
+
+fn uniforms(scene: &Scene, object: &Object, prepared: &Prepared<'_>, features: &FeatureSet) -> BTreeMap<String, Vec<f32>> {
+    let matrices = Matrices::new(&scene.camera, object);
+    let lights: Vec<&Light> = scene.lights.iter().filter(|light| !light.is_black()).collect();
+    let mut all = object_uniforms(&matrices);
+    let eye = matrices.point(features.space, scene.camera.position);
+    all.insert("view.eye".to_owned(), padded(eye, 1.0));
+    all.extend(light_uniforms(&matrices, &lights, features));
+    all.extend(material_uniforms(scene, prepared, features));
+    all
+}
+
+fn object_uniforms(matrices: &Matrices) -> BTreeMap<String, Vec<f32>> {
+    BTreeMap::from([
+        ("object.clip_from_local".to_owned(), columns(matrices.clip_from_local)),
+        ("object.world_from_local".to_owned(), columns(matrices.world_from_local)),
+        ("object.cofactor".to_owned(), columns(DMat4::from_mat3(matrices.cofactor))),
+        ("object.handedness_sign".to_owned(), vec![matrices.handedness as f32, 0.0, 0.0, 0.0]),
+    ])
+}
+
+fn light_uniforms(matrices: &Matrices, lights: &[&Light], features: &FeatureSet) -> BTreeMap<String, Vec<f32>> {
+    let one = |light: &Light| {
+        let vector = matrices.light_vector(features.space, light).map(|v| v as f32).to_vec();
+        (vector, padded(light.radiance(), 0.0))
+    };
+    let dark = || (vec![0.0, 0.0, 1.0, 0.0], vec![0.0; 4]);
+    let (vector, radiance) = lights.first().map_or_else(dark, |light| one(light));
+    let mut items: Vec<f32> = lights.iter().take(MAX_LIGHTS).flat_map(|light| { let (v, r) = one(light); [v, r].concat() }).collect();
+    items.resize(MAX_LIGHTS * 8, 0.0);
+    BTreeMap::from([
+        ("light.vector".to_owned(), vector),
+        ("light.radiance".to_owned(), radiance),
+        ("lights.count".to_owned(), vec![lights.len().min(MAX_LIGHTS) as f32, 0.0, 0.0, 0.0]),
+        ("lights.items".to_owned(), items),
+    ])
+}
+
+fn material_uniforms(scene: &Scene, prepared: &Prepared<'_>, features: &FeatureSet) -> BTreeMap<String, Vec<f32>> {
+    let material = prepared.material;
+    let albedo = match features.albedo {
+        // A constant map is folded into the colour; a map that varies and is left out by choice leaves its constant alone.
+        Albedo::Constant if prepared.facts.albedo.constant_rgb => prepared.facts.albedo.first,
+        Albedo::Constant | Albedo::Map => material.albedo.color,
+    };
+    let cutoff = match material.alpha {
+        AlphaMode::Opaque => 0.0,
+        AlphaMode::Mask { cutoff } => cutoff,
+    };
+    let specular = material.specular.extend(material.shininess);
+    BTreeMap::from([
+        ("material.albedo".to_owned(), albedo.as_vec4().to_array().to_vec()),
+        ("material.ambient".to_owned(), padded(scene.ambient, 0.0)),
+        ("material.specular".to_owned(), specular.as_vec4().to_array().to_vec()),
+        ("material.shininess".to_owned(), vec![material.shininess as f32]),
+        ("material.relief".to_owned(), relief(prepared)),
+        ("material.alpha_cutoff".to_owned(), vec![cutoff as f32]),
+        ("material.normal_decode".to_owned(), normal_decode(material).to_vec()),
+    ])
+}
+
+/// Scale and bias along u, then along v. Zero where there is no relief, and where heights are constant: such a surface is the
+/// polygon itself (see the schema), unless the scene pins a technique.
+fn relief(prepared: &Prepared<'_>) -> Vec<f32> {
+    let is_plane = prepared.facts.height.is_none_or(|height| height.is_constant()) && prepared.material.technique == TechniquePin::Auto;
+    match &prepared.material.height {
+        Some(height) if !is_plane => {
+            let (scale, bias) = (height.elevation.scale, height.elevation.bias);
+            [scale.x, bias.x, scale.y, bias.y].map(|x| x as f32).to_vec()
+        }
+        Some(_) | None => vec![0.0; 4],
+    }
+}
+
+fn padded(v: DVec3, w: f64) -> Vec<f32> {
+    v.extend(w).as_vec4().to_array().to_vec()
+}
+
+fn columns(m: DMat4) -> Vec<f32> {
+    m.as_mat4().to_cols_array().to_vec()
+}

@@ -1,0 +1,123 @@
+//! What can be wrong with a scene, and how it is shown.
+//!
+//! A scene with mistakes yields one [`Error::Invalid`] holding *all* of them, in file order. Each is rendered with file, line,
+//! column, caret, the path of the field and what to do.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::PathBuf;
+
+use codespan_reporting::diagnostic::{Diagnostic, Label};
+use codespan_reporting::files::SimpleFile;
+use codespan_reporting::term::{self, Chars, Config};
+
+/// Why a scene could not be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The scene file itself could not be read.
+    #[error("cannot read the scene file {}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        #[source]
+        source: std::io::Error,
+    },
+    /// The scene file is larger than [`crate::schema::MAX_SCENE_BYTES`].
+    #[error(
+        "the scene file {} has {bytes} bytes; at most {} are read: is this a scene?",
+        path.display(),
+        crate::schema::MAX_SCENE_BYTES
+    )]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its size.
+        bytes: u64,
+    },
+    /// The file was read, and is wrong in one place or more.
+    #[error(transparent)]
+    Invalid(#[from] Box<Report>),
+}
+
+impl Error {
+    /// The problems found in the scene file's text; empty when the file could not be read.
+    #[must_use]
+    pub fn problems(&self) -> &[Problem] {
+        match self {
+            Self::Read { .. } | Self::TooLarge { .. } => &[],
+            Self::Invalid(report) => &report.problems,
+        }
+    }
+}
+
+/// One mistake in a scene file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Problem {
+    /// Path of the field, as `materials[1].height.scale`; empty for the file as a whole.
+    pub field: String,
+    /// What is wrong.
+    pub message: String,
+    /// What to do.
+    pub hint: String,
+    /// Where, in bytes of the text.
+    pub span: Range<usize>,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+}
+
+/// All mistakes of one file, with its text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Report {
+    /// The file, as given.
+    pub path: PathBuf,
+    /// Its text.
+    pub text: String,
+    /// At least one, in file order.
+    pub problems: Vec<Problem>,
+}
+
+impl std::error::Error for Report {}
+
+impl fmt::Display for Report {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let file = SimpleFile::new(self.path.display().to_string(), self.text.as_str());
+        let config = Config { chars: Chars::ascii(), ..Config::default() };
+        for problem in &self.problems {
+            let text = term::emit_into_string(&config, &file, &diagnostic(problem)).map_err(|_| fmt::Error)?;
+            writeln!(out, "{}", text.trim_end())?;
+            writeln!(out)?;
+        }
+        let count = self.problems.len();
+        write!(out, "{}: {count} problem{}", self.path.display(), if count == 1 { "" } else { "s" })
+    }
+}
+
+fn diagnostic(problem: &Problem) -> Diagnostic<()> {
+    let message =
+        if problem.field.is_empty() { problem.message.clone() } else { format!("`{}`: {}", problem.field, problem.message) };
+    Diagnostic::error()
+        .with_message(message)
+        .with_label(Label::primary((), problem.span.clone()))
+        .with_note(format!("help: {}", problem.hint))
+}
+
+/// Line and column (in characters), both from 1, of a byte offset.
+pub(crate) fn line_column(text: &str, offset: usize) -> (usize, usize) {
+    let before = text.get(..offset).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::line_column;
+
+    #[test]
+    fn columns_count_characters_not_bytes() {
+        assert_eq!(line_column("a\nöö = 1", "a\nöö".len()), (2, 3));
+        assert_eq!(line_column("", 0), (1, 1));
+    }
+}

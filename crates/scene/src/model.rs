@@ -1,0 +1,323 @@
+//! What a scene is, after loading: every value checked, every file read, nothing optional left to guess.
+//!
+//! Units: world units are the scene's own; angles in degrees where a name ends in `_deg`; colours are linear; elevations as
+//! in the techniques: z(h) = scale · h + bias in UV units, 1 = one tile of the texture.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use bossage_assets::{ColorMap, EdgeMode, HeightField, Mesh, NormalMap};
+use bossage_shaders::{Form, LightingSpace};
+use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
+
+/// A loaded scene.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The file it came from, as given.
+    pub path: PathBuf,
+    /// The one view.
+    pub camera: Camera,
+    /// Ambient radiance, linear RGB.
+    pub ambient: DVec3,
+    /// Lights, in file order; at most [`crate::schema::MAX_LIGHTS`].
+    pub lights: Vec<Light>,
+    /// Materials, in file order; names are unique.
+    pub materials: Vec<Material>,
+    /// Objects, in file order; names are unique.
+    pub objects: Vec<Object>,
+    /// What error the planner may leave.
+    pub budget: Budget,
+}
+
+impl Scene {
+    /// The material of an object.
+    #[must_use]
+    pub fn material_of(&self, object: &Object) -> &Material {
+        &self.materials[object.material]
+    }
+
+    /// The objects that use a material, by its index.
+    pub fn objects_of(&self, material: usize) -> impl Iterator<Item = &Object> {
+        self.objects.iter().filter(move |object| object.material == material)
+    }
+
+    /// Pins one relief technique for every material that has a height map, as `--technique` does on the command line.
+    /// Materials without a height map are left alone.
+    pub fn pin_technique(&mut self, technique: TechniquePin) {
+        for material in self.materials.iter_mut().filter(|material| material.height.is_some()) {
+            material.technique = technique;
+        }
+    }
+}
+
+/// A pinhole camera, right-handed, looking from `position` to `target`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// The eye, world space.
+    pub position: DVec3,
+    /// The point looked at, world space.
+    pub target: DVec3,
+    /// Up, world space, not parallel to the viewing direction.
+    pub up: DVec3,
+    /// Vertical field of view, degrees, in (0, 180).
+    pub fov_deg: f64,
+    /// Near plane, > 0.
+    pub near: f64,
+    /// Far plane, > near.
+    pub far: f64,
+    /// Image size in pixels, width and height.
+    pub size: [u32; 2],
+}
+
+/// A light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    /// Its name, unique among lights.
+    pub name: String,
+    /// Where it is or comes from.
+    pub kind: LightKind,
+    /// Linear RGB.
+    pub color: DVec3,
+    /// Factor on the colour.
+    pub intensity: f64,
+}
+
+impl Light {
+    /// Colour times intensity, as the shader gets it.
+    #[must_use]
+    pub fn radiance(&self) -> DVec3 {
+        self.color * self.intensity
+    }
+
+    /// Whether it gives no light, after rounding to the shader's f32.
+    #[must_use]
+    pub fn is_black(&self) -> bool {
+        self.radiance().as_vec3() == glam::Vec3::ZERO
+    }
+}
+
+/// Directional or point light, world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LightKind {
+    /// Light travels along `direction` (unit), everywhere.
+    Directional {
+        /// The way the light travels: from the light into the scene.
+        direction: DVec3,
+    },
+    /// Light comes from one point; no attenuation.
+    Point {
+        /// The point.
+        position: DVec3,
+    },
+}
+
+/// A surface.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// Its name, unique.
+    pub name: String,
+    /// Base colour.
+    pub albedo: AlbedoSource,
+    /// Normal map, if any.
+    pub normal: Option<NormalSource>,
+    /// Height map with its elevation, if any.
+    pub height: Option<HeightSource>,
+    /// Specular colour, linear.
+    pub specular: DVec3,
+    /// Blinn-Phong exponent, > 0.
+    pub shininess: f64,
+    /// Opaque or masked.
+    pub alpha: AlphaMode,
+    /// What happens outside [0, 1]², for all maps.
+    pub address: EdgeMode,
+    /// `auto` or a technique.
+    pub technique: TechniquePin,
+    /// As published, or hardened.
+    pub form: Form,
+    /// Where light and view vectors are measured.
+    pub lighting_space: LightingSpace,
+    /// How tangents are made.
+    pub tangents: Tangents,
+}
+
+/// Base colour: a constant that multiplies a map, if there is one.
+#[derive(Clone, Debug)]
+pub struct AlbedoSource {
+    /// Linear RGB and alpha.
+    pub color: DVec4,
+    /// The map (file bytes sRGB, decoded to linear) and its path.
+    pub map: Option<(PathBuf, Arc<ColorMap>)>,
+}
+
+/// A normal map with its codec.
+#[derive(Clone, Debug)]
+pub struct NormalSource {
+    /// The file.
+    pub path: PathBuf,
+    /// The texels, with the codec.
+    pub map: Arc<NormalMap>,
+}
+
+/// A height map and the elevation it stands for.
+#[derive(Clone, Debug)]
+pub struct HeightSource {
+    /// The file.
+    pub path: PathBuf,
+    /// Heights in [0, 1].
+    pub field: Arc<HeightField>,
+    /// Elevation.
+    pub elevation: Elevation,
+}
+
+/// z(h) = scale · h + bias, in UV units of each axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Elevation {
+    /// Scale along u and v: they differ only on tiles that are not square in the world.
+    pub scale: DVec2,
+    /// Bias along u and v.
+    pub bias: DVec2,
+}
+
+impl Elevation {
+    /// z(h), by axis.
+    #[must_use]
+    pub fn at(&self, height: f64) -> DVec2 {
+        self.scale * height + self.bias
+    }
+}
+
+/// Alpha handling.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AlphaMode {
+    /// Alpha is ignored.
+    Opaque,
+    /// Fragments with alpha below the cutoff are discarded.
+    Mask {
+        /// In (0, 1].
+        cutoff: f64,
+    },
+}
+
+/// Which relief technique a scene asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TechniquePin {
+    /// The planner chooses.
+    Auto,
+    /// No relief, although there is a height map.
+    None,
+    /// `parallax_offset`.
+    ParallaxOffset,
+    /// `parallax_offset_limited`.
+    ParallaxOffsetLimited,
+}
+
+/// How the mesh's tangents are generated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Tangents {
+    /// MikkTSpace.
+    MikkTSpace,
+    /// Per-triangle UV gradients summed per vertex.
+    FromUv,
+}
+
+/// Something to draw.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Its name, unique.
+    pub name: String,
+    /// What it was made from.
+    pub shape: Shape,
+    /// The mesh, with tangents, in local space.
+    pub mesh: Arc<Mesh>,
+    /// Index into [`Scene::materials`].
+    pub material: usize,
+    /// Local to world.
+    pub transform: Transform,
+    /// The UVs were multiplied by this.
+    pub uv_repeat: DVec2,
+}
+
+/// The shape of an object, in local space, centred on the origin.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// In the xy plane, facing +z.
+    Plane {
+        /// Width and height.
+        size: DVec2,
+    },
+    /// Axis-aligned.
+    Cube {
+        /// Edge length.
+        size: f64,
+    },
+    /// A UV sphere.
+    Sphere {
+        /// Radius.
+        radius: f64,
+        /// Segments around and along.
+        segments: [u32; 2],
+    },
+    /// A torus around the z axis.
+    Torus {
+        /// From the centre to the tube's centre.
+        major: f64,
+        /// Radius of the tube.
+        minor: f64,
+        /// Segments around the ring and around the tube.
+        segments: [u32; 2],
+    },
+    /// A Wavefront OBJ file.
+    Obj {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// Scale, then rotate, then translate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transform {
+    /// Per axis, none zero; negative mirrors.
+    pub scale: DVec3,
+    /// Rotation, unit.
+    pub rotate: DQuat,
+    /// Translation.
+    pub translate: DVec3,
+}
+
+impl Transform {
+    /// No transform.
+    pub const IDENTITY: Self = Self { scale: DVec3::ONE, rotate: DQuat::IDENTITY, translate: DVec3::ZERO };
+
+    /// World from local.
+    #[must_use]
+    pub fn matrix(&self) -> DMat4 {
+        DMat4::from_scale_rotation_translation(self.scale, self.rotate, self.translate)
+    }
+
+    /// The linear part of [`Transform::matrix`].
+    #[must_use]
+    pub fn linear(&self) -> DMat3 {
+        DMat3::from_quat(self.rotate) * DMat3::from_diagonal(self.scale)
+    }
+
+    /// Whether the scale has one magnitude on all axes, exactly as authored: then the linear part is a multiple of an
+    /// orthogonal matrix, and carries normals as it carries tangents.
+    #[must_use]
+    pub fn keeps_angles(&self) -> bool {
+        let magnitude = self.scale.abs();
+        magnitude.x == magnitude.y && magnitude.y == magnitude.z
+    }
+
+    /// Whether it mirrors (negative determinant).
+    #[must_use]
+    pub fn mirrors(&self) -> bool {
+        self.scale.x.is_sign_negative() ^ self.scale.y.is_sign_negative() ^ self.scale.z.is_sign_negative()
+    }
+}
+
+/// What error the planner may leave, on screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Budget {
+    /// 99th percentile of the position error of a surface point, pixels.
+    pub error_px: f64,
+}

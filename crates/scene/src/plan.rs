@@ -1,0 +1,241 @@
+//! The plan: per material, each effect kept or dropped with its reason and evidence; which permutations that makes; what error
+//! is to be expected.
+//!
+//! A material has one permutation: the union of what its objects need. Keys of the JSON form are those of the command line's
+//! `plan` schema, version 1.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use bossage_shaders::FeatureSet;
+use serde::Serialize;
+
+use crate::choose::Choice;
+use crate::decide;
+use crate::model::Scene;
+use crate::views::{Footprint, View};
+
+/// What a scene calls for.
+#[derive(Clone, Debug, Serialize)]
+pub struct Plan {
+    /// Version of this form.
+    pub schema: u32,
+    /// The scene file.
+    pub scene: PathBuf,
+    /// The budget it was made for: pixels, 99th percentile.
+    pub budget_px: f64,
+    /// One entry a material, in scene order.
+    pub materials: Vec<MaterialPlan>,
+    /// Distinct feature sets, by name, with the materials that share each.
+    pub permutations: Vec<Permutation>,
+}
+
+impl Plan {
+    /// The feature set of a material, by its index in the scene.
+    #[must_use]
+    pub fn features(&self, material: usize) -> FeatureSet {
+        self.materials[material].features
+    }
+
+    /// Fills in the static cost of one permutation, as its manifest states it, for every material that shares it.
+    pub fn set_cost(&mut self, permutation: &str, ops: u32, fetches: u32) {
+        for material in self.materials.iter_mut().filter(|material| material.permutation == permutation) {
+            material.predicted.ops = Some(ops);
+            material.predicted.fetches = Some(fetches);
+        }
+    }
+}
+
+/// One material's part of the plan.
+#[derive(Clone, Debug, Serialize)]
+pub struct MaterialPlan {
+    /// The material.
+    pub name: String,
+    /// The relief technique: `none`, `parallax_offset` or `parallax_offset_limited`.
+    pub technique: &'static str,
+    /// `auto` or `pinned`: who decided the technique.
+    pub technique_by: &'static str,
+    /// Name of the permutation.
+    pub permutation: String,
+    /// The permutation.
+    pub features: FeatureSet,
+    /// Whether anything is drawn: a mask that discards every fragment draws nothing.
+    pub drawn: bool,
+    /// Every effect, in a fixed order.
+    pub effects: Vec<Effect>,
+    /// What to expect.
+    pub predicted: Predicted,
+    /// How the relief technique was chosen, where there was a choice.
+    pub choice: Option<Choice>,
+    /// The objects that use it and how the camera sees them.
+    pub objects: Vec<ObjectView>,
+    /// What else a reader should know.
+    pub notes: Vec<String>,
+}
+
+impl MaterialPlan {
+    /// One effect's entry.
+    #[must_use]
+    pub fn effect(&self, id: EffectId) -> &Effect {
+        // `effects` holds every id, in the order of the enum.
+        &self.effects[id as usize]
+    }
+}
+
+/// An object and its footprint.
+#[derive(Clone, Debug, Serialize)]
+pub struct ObjectView {
+    /// The object.
+    pub name: String,
+    /// How the camera sees it; none when it is out of view.
+    pub footprint: Option<Footprint>,
+}
+
+/// What an effect is called, in the order of the plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EffectId {
+    /// Any light at all.
+    Lighting,
+    /// A light vector computed per pixel.
+    LightVector,
+    /// A loop over lights.
+    LightLoop,
+    /// The specular lobe with its half vector.
+    Specular,
+    /// The normal map.
+    NormalMap,
+    /// The albedo map.
+    AlbedoMap,
+    /// Discarding fragments by alpha.
+    AlphaDiscard,
+    /// Displacing texture coordinates by the height map.
+    Relief,
+    /// The cofactor matrix for normals.
+    CofactorMatrix,
+    /// The sign of the tangent frame.
+    Handedness,
+}
+
+impl EffectId {
+    /// All of them, in order.
+    pub const ALL: [Self; 10] = [
+        Self::Lighting,
+        Self::LightVector,
+        Self::LightLoop,
+        Self::Specular,
+        Self::NormalMap,
+        Self::AlbedoMap,
+        Self::AlphaDiscard,
+        Self::Relief,
+        Self::CofactorMatrix,
+        Self::Handedness,
+    ];
+
+    /// The word used in JSON and in the table.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Lighting => "lighting",
+            Self::LightVector => "light_vector",
+            Self::LightLoop => "light_loop",
+            Self::Specular => "specular",
+            Self::NormalMap => "normal_map",
+            Self::AlbedoMap => "albedo_map",
+            Self::AlphaDiscard => "alpha_discard",
+            Self::Relief => "relief",
+            Self::CofactorMatrix => "cofactor_matrix",
+            Self::Handedness => "handedness",
+        }
+    }
+}
+
+/// Kept or dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum State {
+    /// In the shader.
+    Kept,
+    /// Compiled out.
+    Dropped,
+}
+
+/// One effect's decision.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Effect {
+    /// Which effect.
+    pub id: EffectId,
+    /// Kept or dropped.
+    pub state: State,
+    /// Why, in words.
+    pub reason: String,
+    /// The numbers behind it.
+    pub evidence: Evidence,
+}
+
+/// Named facts, sorted by name.
+pub type Evidence = BTreeMap<&'static str, Fact>;
+
+/// One fact.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Fact {
+    /// A count.
+    Count(u64),
+    /// A measured or computed number.
+    Number(f64),
+    /// Several numbers.
+    Numbers(Vec<f64>),
+    /// A name.
+    Text(String),
+    /// Several names.
+    Names(Vec<String>),
+}
+
+/// What to expect of a material's shader.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Predicted {
+    /// 99th percentile of the distance between the texture position shaded and the true one, texels; none where nothing of
+    /// the material is seen.
+    pub error_texels_p99: Option<f64>,
+    /// The same in pixels on screen.
+    pub error_px_p99: Option<f64>,
+    /// Operations a pixel, from the manifest's static cost.
+    pub ops: Option<u32>,
+    /// Texture fetches a pixel, from the manifest's static cost.
+    pub fetches: Option<u32>,
+}
+
+/// One shader permutation and who shares it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Permutation {
+    /// Its name.
+    pub name: String,
+    /// Its features.
+    pub features: FeatureSet,
+    /// The materials that share it.
+    pub materials: Vec<String>,
+}
+
+/// Derives what a scene calls for. Deterministic: the same files give the same plan.
+#[must_use]
+pub fn plan(scene: &Scene) -> Plan {
+    let views: Vec<View> = scene.objects.iter().map(|object| View::new(&scene.camera, object)).collect();
+    let materials: Vec<MaterialPlan> = (0..scene.materials.len()).map(|index| decide::material(scene, &views, index)).collect();
+    Plan {
+        schema: 1,
+        scene: scene.path.clone(),
+        budget_px: scene.budget.error_px,
+        permutations: permutations(&materials),
+        materials,
+    }
+}
+
+fn permutations(materials: &[MaterialPlan]) -> Vec<Permutation> {
+    let mut by_name: BTreeMap<&str, Permutation> = BTreeMap::new();
+    for material in materials {
+        let new = || Permutation { name: material.permutation.clone(), features: material.features, materials: Vec::new() };
+        by_name.entry(&material.permutation).or_insert_with(new).materials.push(material.name.clone());
+    }
+    by_name.into_values().collect()
+}

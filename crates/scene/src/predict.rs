@@ -1,0 +1,109 @@
+//! Predicted error of a relief technique: rays of this scene, the technique in f64, against the first hit on the bilinear
+//! height field.
+//!
+//! Error in texels is the distance between the shaded and the true texture position; in pixels, the same carried to the
+//! screen by the derivative of the projection on the polygon. Percentiles over all rays of all objects of a material.
+//!
+//! Guarantee: deterministic, [`RAYS`] rays a material at most, each object getting its share by visible area.
+//! Limits: as for views, hidden parts count; the derivative is taken at the polygon, so very large errors are only
+//! roughly right in pixels.
+
+use bossage_assets::EdgeMode;
+use bossage_reference::relief_truth::{self, Ray, Status};
+use bossage_reference::{parallax_offset, parallax_offset_limited};
+use bossage_shaders::{Form, Relief};
+use glam::{DVec2, DVec3};
+use serde::Serialize;
+
+use crate::model::{Elevation, HeightSource};
+use crate::views::{View, ViewRay};
+
+/// Rays a material.
+pub(crate) const RAYS: u32 = 4096;
+
+/// 99th percentiles of the error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Error {
+    /// Texels.
+    #[serde(rename = "error_texels_p99")]
+    pub texels_p99: f64,
+    /// Pixels.
+    #[serde(rename = "error_px_p99")]
+    pub px_p99: f64,
+}
+
+/// Rays with their true texture positions.
+pub(crate) struct Truth<'a> {
+    height: &'a HeightSource,
+    edge: EdgeMode,
+    rays: Vec<(ViewRay, DVec2)>,
+}
+
+impl<'a> Truth<'a> {
+    /// Traces the rays of the given views.
+    pub(crate) fn trace(height: &'a HeightSource, edge: EdgeMode, views: &[&View]) -> Self {
+        let total: f64 = views.iter().map(|view| view.area_px()).sum();
+        let share = |view: &View| (f64::from(RAYS) * view.area_px() / total).ceil() as u32;
+        let rays = views.iter().filter(|view| view.area_px() > 0.0).flat_map(|view| view.rays(share(view)));
+        let rays = rays.filter_map(|ray| Some((ray, true_uv(height, edge, &ray)?))).collect();
+        Self { height, edge, rays }
+    }
+
+    /// The error of a technique over these rays; none when there are no rays.
+    pub(crate) fn error(&self, technique: Relief, form: Form) -> Option<Error> {
+        let size = DVec2::new(f64::from(self.height.field.width), f64::from(self.height.field.height));
+        let errors = self.rays.iter().map(|(ray, truth)| {
+            let off = self.shifted(technique, form, ray) - *truth;
+            ((off * size).length(), (ray.px_per_uv[0] * off.x + ray.px_per_uv[1] * off.y).length())
+        });
+        let (texels, px): (Vec<f64>, Vec<f64>) = errors.unzip();
+        Some(Error { texels_p99: percentile_99(texels)?, px_p99: percentile_99(px)? })
+    }
+
+    fn shifted(&self, technique: Relief, form: Form, ray: &ViewRay) -> DVec2 {
+        let height = relief_truth::height_at(&self.height.field, self.edge, ray.uv);
+        let by_axis = |formula: fn(DVec2, DVec3, f64, f64, f64) -> DVec2| {
+            let Elevation { scale, bias } = self.height.elevation;
+            let u = formula(ray.uv, ray.view_ts, height, scale.x, bias.x).x;
+            let v = formula(ray.uv, ray.view_ts, height, scale.y, bias.y).y;
+            DVec2::new(u, v)
+        };
+        match (technique, form) {
+            (Relief::None, _) => ray.uv,
+            (Relief::ParallaxOffset, Form::Published) => by_axis(parallax_offset::published),
+            (Relief::ParallaxOffset, Form::Hardened) => by_axis(parallax_offset::hardened),
+            (Relief::ParallaxOffsetLimited, _) => by_axis(parallax_offset_limited::offset),
+        }
+    }
+}
+
+/// Where the view ray first meets the surface; none for rays so flat that the walk gives up.
+fn true_uv(height: &HeightSource, edge: EdgeMode, ray: &ViewRay) -> Option<DVec2> {
+    let Elevation { scale, bias } = height.elevation;
+    let slope = ray.view_ts.truncate() / ray.view_ts.z;
+    let ray = Ray { uv_top: ray.uv + (scale + bias) * slope, delta: -scale * slope };
+    if !(ray.uv_top.is_finite() && ray.delta.is_finite()) {
+        return None;
+    }
+    let hit = relief_truth::first_hit(&height.field, edge, &ray);
+    (hit.status == Status::Hit).then_some(hit.uv)
+}
+
+/// The smallest value that at least 99 % of the values do not exceed.
+fn percentile_99(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let rank = (values.len() as f64 * 0.99).ceil() as usize;
+    values.get(rank.checked_sub(1)?).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::percentile_99;
+
+    #[test]
+    fn percentile_is_a_value_of_the_sample() {
+        assert_eq!(percentile_99((1..=200).map(f64::from).collect()), Some(198.0));
+        assert_eq!(percentile_99(vec![3.0]), Some(3.0));
+        assert_eq!(percentile_99(Vec::new()), None);
+    }
+}

@@ -1,0 +1,109 @@
+//! The scene format, version 1: every key, its range and its default. This is the one place where defaults live.
+//!
+//! A scene is a TOML file with `schema = 1`. Keys not listed here are refused. Paths are relative to the scene file. Colours are
+//! linear; image files hold sRGB colour where they are albedo maps and plain numbers otherwise. Right-handed world; the camera
+//! looks along −z of its own space.
+//!
+//! | key | value | default |
+//! |---|---|---|
+//! | `schema` | `1` | required |
+//! | `ambient` | 3 numbers ≥ 0 | `[0, 0, 0]` |
+//! | `[camera]` | | required |
+//! | `camera.position`, `camera.target` | 3 numbers, not the same point | required |
+//! | `camera.up` | 3 numbers, not parallel to the viewing direction | `[0, 1, 0]` |
+//! | `camera.fov_deg` | vertical field of view, in (0, 180) | required |
+//! | `camera.near`, `camera.far` | 0 < near < far | required |
+//! | `camera.size` | width and height of the image, 1 to 16384 | required |
+//! | `[budget]` `error_px` | 99th percentile of the error the planner may leave, pixels > 0 | `1` |
+//! | `[[lights]]` | at most 16 | none |
+//! | `lights.name` | unique | required |
+//! | `lights.kind` | `directional`, `point` | required |
+//! | `lights.direction` | directional only: the way the light travels, not 0 | required |
+//! | `lights.position` | point only | required |
+//! | `lights.color` | 3 numbers ≥ 0 | `[1, 1, 1]` |
+//! | `lights.intensity` | number ≥ 0 | `1` |
+//! | `[[materials]]` | | none |
+//! | `materials.name` | unique | required |
+//! | `materials.albedo.color` | 3 or 4 numbers in \[0, 1\], multiplies the map | `[1, 1, 1, 1]` |
+//! | `materials.albedo.map` | image | none |
+//! | `materials.normal.map` | image with at least 3 channels | required in `normal` |
+//! | `materials.normal.codec` | `unorm`, `biased` | required in `normal` |
+//! | `materials.height.map` | image | required in `height` |
+//! | `materials.height.channel` | `red`, `green`, `blue`, `alpha`, `luminance` | `red` |
+//! | `materials.height.scale`, `.bias` | z(h) = scale·h + bias in UV units; scale > 0 | required, or the next two |
+//! | `materials.height.depth`, `.tile` | depth > 0 below the polygon, and width and height > 0 of one tile, world units | required, or the last two |
+//! | `materials.specular` | 3 numbers ≥ 0 | `[0, 0, 0]` |
+//! | `materials.shininess` | > 0, at most 65536 | `32` |
+//! | `materials.alpha.mode` | `opaque`, `mask` | `opaque` |
+//! | `materials.alpha.cutoff` | in (0, 1], `mask` only | required with `mask` |
+//! | `materials.address` | `wrap`, `mirror`, `clamp` | `wrap` |
+//! | `materials.technique` | `auto`, `none`, `parallax_offset`, `parallax_offset_limited` | `auto` |
+//! | `materials.form` | `hardened`, `published` | `hardened` |
+//! | `materials.lighting_space` | `world`, `object` | `world` |
+//! | `materials.tangents` | `mikktspace`, `from_uv` | `mikktspace` |
+//! | `[[objects]]` | at least one | required |
+//! | `objects.name` | unique | required |
+//! | `objects.material` | name of a material | required |
+//! | `objects.shape` | `plane`, `cube`, `sphere`, `torus`, `obj` | required |
+//! | `objects.size` | plane: width and height > 0; cube: edge > 0 | `[2, 2]`; `2` |
+//! | `objects.radius` | sphere: > 0 | `1` |
+//! | `objects.major`, `objects.minor` | torus: > 0, minor < major | `1`, `0.4` |
+//! | `objects.segments` | sphere, torus: around and along, 3 to 1024 | `[48, 24]` |
+//! | `objects.file` | obj: the file | required |
+//! | `objects.uv_repeat` | 2 numbers, not 0; negative mirrors | `[1, 1]` |
+//! | `objects.translate` | 3 numbers | `[0, 0, 0]` |
+//! | `objects.rotate` | `{ axis, angle_deg }`, or an array of them, first to last | none |
+//! | `objects.scale` | a number, or 3; none 0; negative mirrors | `[1, 1, 1]` |
+//!
+//! Rules across keys:
+//!
+//! - A pinned relief technique needs `height`, and something textured to displace (`albedo.map` or `normal`).
+//! - `lighting_space = "object"` needs objects of equal scale on all axes: anything else bends the angles it measures.
+//! - A height map that is constant is the polygon itself, whatever `scale` and `bias`, unless a technique is pinned.
+//! - World depth: z_u = depth/tile width, z_v = depth/tile height, bias = −scale on each axis.
+
+use glam::{DVec2, DVec3, DVec4};
+
+/// The version this crate reads.
+pub const SCHEMA: u32 = 1;
+/// Most lights a scene may have: the size of the shader's array.
+pub const MAX_LIGHTS: usize = 16;
+/// Largest image side of the camera, pixels: what every target's render targets can hold.
+pub const MAX_CAMERA_SIDE: u32 = 16_384;
+/// Largest scene file read.
+pub const MAX_SCENE_BYTES: u64 = 4 << 20;
+/// Largest shininess: pow(x, p) is a spike of one f32 step beyond it.
+pub const MAX_SHININESS: f64 = 65_536.0;
+/// Fewest and most segments of round shapes.
+pub const SEGMENTS: std::ops::RangeInclusive<u32> = 3..=1024;
+
+/// Default `camera.up`.
+pub const UP: DVec3 = DVec3::Y;
+/// Default `ambient`.
+pub const AMBIENT: DVec3 = DVec3::ZERO;
+/// Default `budget.error_px`.
+pub const ERROR_PX: f64 = 1.0;
+/// Default `lights.color`.
+pub const LIGHT_COLOR: DVec3 = DVec3::ONE;
+/// Default `lights.intensity`.
+pub const INTENSITY: f64 = 1.0;
+/// Default `materials.albedo.color`.
+pub const ALBEDO_COLOR: DVec4 = DVec4::ONE;
+/// Default `materials.specular`.
+pub const SPECULAR: DVec3 = DVec3::ZERO;
+/// Default `materials.shininess`.
+pub const SHININESS: f64 = 32.0;
+/// Default `objects.size` of a plane.
+pub const PLANE_SIZE: DVec2 = DVec2::new(2.0, 2.0);
+/// Default `objects.size` of a cube.
+pub const CUBE_SIZE: f64 = 2.0;
+/// Default `objects.radius`.
+pub const RADIUS: f64 = 1.0;
+/// Default `objects.major`.
+pub const TORUS_MAJOR: f64 = 1.0;
+/// Default `objects.minor`.
+pub const TORUS_MINOR: f64 = 0.4;
+/// Default `objects.segments`.
+pub const SEGMENTS_DEFAULT: [u32; 2] = [48, 24];
+/// Default `objects.uv_repeat`.
+pub const UV_REPEAT: DVec2 = DVec2::ONE;
