@@ -3,7 +3,7 @@
 //! Every rule states what it measured. The decisions and the canonical feature set agree: what is dropped here is not in the
 //! permutation, and what is kept is.
 
-use bossage_shaders::{Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform};
+use bossage_shaders::{Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Transform};
 
 use crate::facts::{MaterialFacts, has_mirrored_uv};
 use crate::model::{AlphaMode, Light, LightKind, Material, Object, Scene, TechniquePin};

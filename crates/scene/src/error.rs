@@ -5,7 +5,7 @@
 
 use std::fmt;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use codespan_reporting::diagnostic::{Diagnostic, Label};
 use codespan_reporting::files::SimpleFile;
@@ -77,6 +77,21 @@ pub struct Report {
     pub text: String,
     /// At least one, in file order.
     pub problems: Vec<Problem>,
+}
+
+impl Report {
+    /// For a scene that was refused without a problem being noted: a mistake of this crate, and still no panic.
+    pub(crate) fn unexplained(path: &Path, text: &str) -> Self {
+        let problem = Problem {
+            field: String::new(),
+            message: "the scene was refused and no reason was noted".to_owned(),
+            hint: "this is a mistake of the loader: please report it with the scene".to_owned(),
+            span: 0..0,
+            line: 1,
+            column: 1,
+        };
+        Self { path: path.to_owned(), text: text.to_owned(), problems: vec![problem] }
+    }
 }
 
 impl std::error::Error for Report {}

@@ -49,6 +49,7 @@ mod draw;
 mod error;
 mod facts;
 mod fields;
+mod files;
 mod load;
 mod load_material;
 mod load_object;

@@ -30,7 +30,6 @@ struct Facet {
     triangle: usize,
     /// Barycentric coordinates in the mesh triangle, of each corner.
     bary: [DVec3; 3],
-    screen_px: [DVec2; 3],
     depth: [f64; 3],
     /// Sum of the areas up to and including this facet.
     area_to_here_px: f64,
@@ -100,7 +99,7 @@ impl View {
         if area > 0.0 {
             let area_to_here_px = self.area_px() + area;
             let (bary, depth) = (corners.map(|(_, bary)| bary), corners.map(|(clip, _)| clip.w));
-            self.facets.push(Facet { triangle, bary, screen_px, depth, area_to_here_px });
+            self.facets.push(Facet { triangle, bary, depth, area_to_here_px });
         }
     }
 
