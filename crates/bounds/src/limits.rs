@@ -1,0 +1,25 @@
+//! Budgets that keep every evaluation finite.
+
+/// Budgets of one evaluation. Reaching `operations`, `depth` or `memory` is an error that names the budget; reaching one of the
+/// others makes a result *undecided*, which is counted, never guessed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Scalar operations that an invocation may execute on average over its batch.
+    pub operations: u64,
+    /// How often one invocation may both leave and stay in one loop before what the loop writes is given up as unknown.
+    pub undecided_exits: u32,
+    /// How many array elements or texels an uncertain index may select before the whole array counts as selected.
+    pub spread: u32,
+    /// How deeply calls and blocks may nest.
+    pub depth: u32,
+    /// Bytes that the register files and the memory of a run may take together.
+    pub memory: u64,
+    /// Whether to count operations and fetches for each source span.
+    pub count: bool,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { operations: 1 << 22, undecided_exits: 128, spread: 1024, depth: 400, memory: 1 << 30, count: false }
+    }
+}
