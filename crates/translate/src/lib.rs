@@ -6,12 +6,18 @@ pub mod cost;
 pub mod diagnostic;
 pub mod emit;
 pub mod external;
+mod front;
+mod guard;
+mod ir;
 pub mod lint;
 pub mod manifest;
 pub mod options;
+mod overrides;
+mod resources;
 pub mod shader;
 pub mod source;
 pub mod target;
+mod type_name;
 
 pub use cost::Cost;
 pub use diagnostic::{Code, Diagnostic, Label};
