@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 
-use crate::vector::{normalize, normalize_or_zero, saturate};
+use crate::vector::{SMALLEST_NORMAL_F32, normalize, normalize_or_zero, saturate};
 
 /// The colours and the exponent of the formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,9 +24,7 @@ pub struct Reflectance {
 /// As published. L = −V gives NaN; pow(0, 0) is NaN here because the languages define `pow` by exp2(p · log2 x).
 #[must_use]
 pub fn published(normal: DVec3, light: DVec3, view: DVec3, surface: &Reflectance) -> DVec3 {
-    let half_vector = normalize(light + view);
-    let highlight = saturate(normal.dot(half_vector));
-    let power = if highlight == 0.0 && surface.shininess == 0.0 { f64::NAN } else { highlight.powf(surface.shininess) };
+    let power = highlight_power_published(normal.dot(normalize(light + view)), surface.shininess);
     saturate(normal.dot(light)) * surface.diffuse + power * surface.specular
 }
 
@@ -34,15 +32,23 @@ pub fn published(normal: DVec3, light: DVec3, view: DVec3, surface: &Reflectance
 /// exponent.
 #[must_use]
 pub fn hardened(normal: DVec3, light: DVec3, view: DVec3, surface: &Reflectance) -> DVec3 {
-    let half_vector = normalize_or_zero(light + view);
-    let highlight = saturate(normal.dot(half_vector));
-    saturate(normal.dot(light)) * surface.diffuse + highlight_power(highlight, surface.shininess) * surface.specular
+    let power = highlight_power(normal.dot(normalize_or_zero(light + view)), surface.shininess);
+    saturate(normal.dot(light)) * surface.diffuse + power * surface.specular
 }
 
-/// x^p for x in [0, 1] with the convention that nothing shines at x = 0, also for p = 0.
+/// saturate(x)^p, with 0⁰ = NaN.
+#[must_use]
+pub fn highlight_power_published(x: f64, shininess: f64) -> f64 {
+    let base = saturate(x);
+    if base == 0.0 && shininess == 0.0 { f64::NAN } else { base.powf(shininess) }
+}
+
+/// saturate(x)^max(p, 0), and 0 where x is below the smallest normal f32, whatever p: nothing shines that the half vector
+/// does not face.
 #[must_use]
 pub fn highlight_power(x: f64, shininess: f64) -> f64 {
-    if x > 0.0 { x.powf(shininess) } else { 0.0 }
+    let base = saturate(x);
+    if base < SMALLEST_NORMAL_F32 { 0.0 } else { base.powf(shininess.max(0.0)) }
 }
 
 #[cfg(test)]

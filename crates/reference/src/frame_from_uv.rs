@@ -7,12 +7,13 @@
 //! Spaces: local; N is the vertex' own unit normal. Results: T' in xyz and w.
 //!
 //! Known faults of the published form: zero UV area (division by 0), a sum that cancels where mirrored halves meet, T ∥ N after
-//! summing, T' not unit. Hardened: triangles without area in UV or space are left out, the others weigh by their area, T'
-//! is unit, and a vertex for which nothing remains gets a frame from its normal alone.
+//! summing, T' not unit. Hardened: a triangle without area, or whose texture area cannot be told from f32 rounding
+//! ([`UV_AREA_NOISE`]), is left out; the others' T and B are unit vectors weighted by area; T' is unit; a vertex for which
+//! less than [`CANCELLED_SHARE`] of what went in remains gets a tangent from its normal alone, with w = +1.
 
 use glam::{DVec2, DVec3, DVec4};
 
-use crate::vector::normalize;
+use crate::vector::{SMALLEST_NORMAL_F32, normalize};
 
 /// The two tangents of a triangle, in the units of position per unit of texture coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +23,13 @@ pub struct Tangents {
     /// B, along +v.
     pub bitangent: DVec3,
 }
+
+/// Below this share of |s₁t₂| + |s₂t₁| the sign of their difference is not known in f32: each of the two products and the
+/// difference is off by up to 2⁻²⁴ of itself in the worst rounding, with a factor of two to spare.
+pub const UV_AREA_NOISE: f64 = 1.0 / 4_194_304.0;
+
+/// A tangent left shorter than this share of the weights that went in has lost half of f32's 24 bits to cancellation.
+pub const CANCELLED_SHARE: f64 = 1.0 / 4096.0;
 
 /// The texture area s₁t₂ − s₂t₁ of a triangle, twice and signed.
 #[must_use]
@@ -80,33 +88,35 @@ pub fn published(mesh: &Triangles<'_>) -> Vec<DVec4> {
 }
 
 /// The tangents of a whole mesh, hardened.
-///
-/// A triangle weighs by its area in space times the sign of its texture area: the direction of its T is
-/// sign(det)·(t₂P − t₁Q), normalised.
 #[must_use]
 pub fn hardened(mesh: &Triangles<'_>) -> Vec<DVec4> {
-    let sums = mesh.sums(weighted_triangle);
-    mesh.normals.iter().zip(sums).map(|(&normal, sum)| hardened_vertex(normal, sum)).collect()
+    let sums = mesh.weighted_sums();
+    mesh.normals.iter().zip(sums).map(|(&normal, (sum, weight))| hardened_vertex(normal, sum, weight)).collect()
 }
 
-/// One triangle's share in the hardened sum; zero for a triangle without area.
+/// One triangle's share in the hardened sum, and its weight (twice its area); nothing for a triangle that is left out.
+/// P and Q are edges in space, `st1` and `st2` their texture edges.
 #[must_use]
-pub fn weighted_triangle(positions: [DVec3; 3], uvs: [DVec2; 3]) -> Tangents {
-    let determinant = uv_determinant(uvs);
-    let area = (positions[1] - positions[0]).cross(positions[2] - positions[0]).length();
-    let raw = scaled_triangle(positions, uvs);
-    if determinant == 0.0 || area == 0.0 || raw.tangent == DVec3::ZERO || raw.bitangent == DVec3::ZERO {
-        return Tangents { tangent: DVec3::ZERO, bitangent: DVec3::ZERO };
+pub fn weighted_triangle(p: DVec3, q: DVec3, st1: DVec2, st2: DVec2) -> (Tangents, f64) {
+    let nothing = (Tangents { tangent: DVec3::ZERO, bitangent: DVec3::ZERO }, 0.0);
+    let (first, second) = (st1.x * st2.y, st2.x * st1.y);
+    let (uv_area, area) = (first - second, p.cross(q).length());
+    let raw = Tangents { tangent: st2.y * p - st1.y * q, bitangent: st1.x * q - st2.x * p };
+    let shortest = raw.tangent.abs().max_element().min(raw.bitangent.abs().max_element());
+    let noise = UV_AREA_NOISE * (first.abs() + second.abs());
+    if uv_area.abs() <= noise || area < SMALLEST_NORMAL_F32 || shortest < SMALLEST_NORMAL_F32 {
+        return nothing;
     }
-    let weight = determinant.signum() * area;
-    Tangents { tangent: weight * normalize(raw.tangent), bitangent: weight * normalize(raw.bitangent) }
+    let weight = uv_area.signum() * area;
+    (Tangents { tangent: weight * normalize(raw.tangent), bitangent: weight * normalize(raw.bitangent) }, area)
 }
 
-/// One vertex, hardened: unit tangent perpendicular to the normal, whatever the sum.
+/// One vertex, hardened: unit tangent perpendicular to the normal, whatever the sum. `weight` is the sum of the weights.
 #[must_use]
-pub fn hardened_vertex(normal: DVec3, sum: Tangents) -> DVec4 {
+pub fn hardened_vertex(normal: DVec3, sum: Tangents, weight: f64) -> DVec4 {
     let tangent = sum.tangent - normal.dot(sum.tangent) * normal;
-    if tangent == DVec3::ZERO || !tangent.is_finite() {
+    let left = tangent.length();
+    if left <= CANCELLED_SHARE * weight || left < SMALLEST_NORMAL_F32 {
         return frame_from_normal(normal).tangent.extend(1.0);
     }
     normalize(tangent).extend(handedness(normal, sum))
@@ -126,6 +136,22 @@ pub struct Triangles<'a> {
 }
 
 impl Triangles<'_> {
+    /// The hardened sums of every vertex and the weights that went into them.
+    fn weighted_sums(&self) -> Vec<(Tangents, f64)> {
+        let mut sums = vec![(Tangents { tangent: DVec3::ZERO, bitangent: DVec3::ZERO }, 0.0); self.positions.len()];
+        for corners in self.indices.chunks_exact(3) {
+            let [a, b, c] = [corners[0] as usize, corners[1] as usize, corners[2] as usize];
+            let (p, q) = (self.positions[b] - self.positions[a], self.positions[c] - self.positions[a]);
+            let (share, weight) = weighted_triangle(p, q, self.uvs[b] - self.uvs[a], self.uvs[c] - self.uvs[a]);
+            for i in [a, b, c] {
+                sums[i].0.tangent += share.tangent;
+                sums[i].0.bitangent += share.bitangent;
+                sums[i].1 += weight;
+            }
+        }
+        sums
+    }
+
     /// Sums what `of` gives for each triangle into its three vertices, in index order.
     fn sums(&self, of: impl Fn([DVec3; 3], [DVec2; 3]) -> Tangents) -> Vec<Tangents> {
         let mut sums = vec![Tangents { tangent: DVec3::ZERO, bitangent: DVec3::ZERO }; self.positions.len()];

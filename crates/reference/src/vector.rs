@@ -20,10 +20,14 @@ pub fn normalize(v: DVec3) -> DVec3 {
     scaled / scaled.length()
 }
 
-/// v / |v|, and zero for the zero vector.
+/// The smallest normal f32. What is smaller may be taken for zero by any f32 machine, so the hardened forms agree to do so.
+pub const SMALLEST_NORMAL_F32: f64 = f32::MIN_POSITIVE as f64;
+
+/// v / |v|, and zero for a vector whose largest component is below the smallest normal f32: it has no direction that an
+/// f32 machine could be held to.
 #[must_use]
 pub fn normalize_or_zero(v: DVec3) -> DVec3 {
-    if v == DVec3::ZERO { DVec3::ZERO } else { normalize(v) }
+    if v.abs().max_element() < SMALLEST_NORMAL_F32 { DVec3::ZERO } else { normalize(v) }
 }
 
 /// +1 for positive numbers and both zeros, −1 for negative ones: unlike the `sign` of the shading languages it is never 0.
@@ -50,6 +54,8 @@ mod tests {
     fn edges() {
         assert!(normalize(DVec3::ZERO).is_nan());
         assert_eq!(normalize_or_zero(DVec3::ZERO), DVec3::ZERO);
+        assert_eq!(normalize_or_zero(1e-40 * DVec3::X), DVec3::ZERO);
+        assert_eq!(normalize_or_zero(2e-38 * DVec3::X), DVec3::X);
         assert!(saturate(f64::NAN).is_nan());
         assert_eq!(sign_not_zero(-0.0), 1.0);
     }

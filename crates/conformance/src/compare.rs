@@ -1,0 +1,271 @@
+//! The comparator: computed outputs against truth and acceptance intervals.
+//!
+//! An output passes when it lies in its interval; the truth must lie there too, otherwise two oracles disagree and that is
+//! a failure of ours. An output on which the rules say nothing (`Bounded::OPEN`) is counted as undecided and judged by
+//! nothing but having been written. Outputs still holding the sentinel were never written: a failure.
+
+use std::fmt;
+
+use bossage_runner::is_unwritten;
+use serde::Serialize;
+
+use crate::bounded::Bounded;
+use crate::report::json::Number;
+use crate::ulp::error_ulps;
+
+/// What one output should be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Expected {
+    /// The f64 reference.
+    pub truth: f64,
+    /// What an implementation may return.
+    pub bound: Bounded,
+}
+
+/// Why an output was refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Refusal {
+    /// The shader never wrote it.
+    Unwritten,
+    /// It lies outside of the interval.
+    Outside,
+    /// It is NaN or infinite where the interval is finite.
+    NotFinite,
+    /// The truth lies outside of the interval: the oracles disagree.
+    OraclesDisagree,
+}
+
+impl Refusal {
+    /// For people.
+    #[must_use]
+    pub fn reason(self) -> &'static str {
+        match self {
+            Self::Unwritten => "the shader did not write this output",
+            Self::Outside => "outside of the acceptance interval",
+            Self::NotFinite => "not finite where the interval is",
+            Self::OraclesDisagree => "the oracles disagree: the f64 reference lies outside of the interval",
+        }
+    }
+}
+
+/// The output with the largest error, or the first refused one.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Worst {
+    /// |got − truth| in ULPs of the truth.
+    pub ulp: Option<f64>,
+    /// |got − truth|.
+    pub abs: Option<f64>,
+    /// |got − truth| as a share of the allowed error.
+    pub of_bound: Option<f64>,
+    /// The item's inputs.
+    pub input: Vec<f32>,
+    /// Which output of the item.
+    pub output: usize,
+    /// Whether it was written at all.
+    pub written: bool,
+    /// What came back.
+    pub got: Number,
+    /// The truth.
+    pub truth: Number,
+    /// The acceptance interval, low and high.
+    pub interval: [Number; 2],
+}
+
+impl fmt::Display for Worst {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "input     {:?}", self.input)?;
+        let got = if self.written { self.got.to_string() } else { "never written".to_owned() };
+        writeln!(f, "output    number {}: {got}", self.output)?;
+        writeln!(f, "truth     {}", self.truth)?;
+        writeln!(f, "allowed   {} to {}", self.interval[0], self.interval[1])?;
+        let or_none = |x: Option<f64>| x.map_or("not a number".to_owned(), |x| format!("{x:.4e}"));
+        write!(f, "error     {} ULP, {} absolute", or_none(self.ulp), or_none(self.abs))
+    }
+}
+
+/// The comparison of one case's outputs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Comparison {
+    /// Outputs compared.
+    pub outputs: usize,
+    /// Of those, outputs on which the rules say nothing.
+    pub undecided: usize,
+    /// Of those, outputs where an undecided comparison joined two results.
+    pub forked: usize,
+    /// Refused outputs.
+    pub refused: usize,
+    /// Why the worst was refused.
+    pub refusal: Option<Refusal>,
+    /// The worst output.
+    pub worst: Option<Worst>,
+    /// The badness of `worst`, for merging.
+    badness: f64,
+}
+
+impl Comparison {
+    /// Compares the outputs of one item.
+    pub fn item(&mut self, input: &[f32], got: &[f32], expected: &[Expected]) {
+        for (output, (&got, expected)) in got.iter().zip(expected).enumerate() {
+            self.output(input, output, got, expected);
+        }
+        // A missing output is as bad as an unwritten one.
+        for (output, expected) in expected.iter().enumerate().skip(got.len()) {
+            self.output(input, output, bossage_runner::SENTINEL, expected);
+        }
+    }
+
+    fn output(&mut self, input: &[f32], output: usize, got: f32, expected: &Expected) {
+        self.outputs += 1;
+        self.undecided += usize::from(!expected.bound.is_decided());
+        self.forked += usize::from(expected.bound.forked);
+        let refusal = refusal(got, expected);
+        self.refused += usize::from(refusal.is_some());
+        let badness = badness(got, expected, refusal);
+        if self.worst.is_none() || badness > self.badness {
+            self.badness = badness;
+            self.refusal = refusal;
+            self.worst = Some(worst(input, output, got, expected));
+        }
+    }
+
+    /// Adds another part of the same case.
+    pub fn merge(&mut self, other: Self) {
+        self.outputs += other.outputs;
+        self.undecided += other.undecided;
+        self.forked += other.forked;
+        self.refused += other.refused;
+        if other.worst.is_some() && (self.worst.is_none() || other.badness > self.badness) {
+            self.badness = other.badness;
+            self.refusal = other.refusal;
+            self.worst = other.worst;
+        }
+    }
+
+    /// The share of outputs on which the rules say nothing or allow two results.
+    #[must_use]
+    pub fn undecided_share(&self) -> f64 {
+        if self.outputs == 0 { 0.0 } else { (self.undecided + self.forked) as f64 / self.outputs as f64 }
+    }
+}
+
+/// Whether the truth lies in the interval, with room for the rounding of both float64 evaluations.
+fn oracles_agree(expected: &Expected) -> bool {
+    // Some tens of operations at 2^-53 each, relative to the value.
+    let rounding = 64.0 * f64::EPSILON * expected.bound.value.abs() + f64::MIN_POSITIVE;
+    !expected.bound.is_decided() || (expected.truth - expected.bound.value).abs() <= expected.bound.error + rounding
+}
+
+fn refusal(got: f32, expected: &Expected) -> Option<Refusal> {
+    if is_unwritten(got) {
+        return Some(Refusal::Unwritten);
+    }
+    if !oracles_agree(expected) {
+        return Some(Refusal::OraclesDisagree);
+    }
+    if !expected.bound.is_decided() || expected.bound.contains(f64::from(got)) {
+        return None;
+    }
+    Some(if got.is_finite() { Refusal::Outside } else { Refusal::NotFinite })
+}
+
+/// The order of "worse": refusals first, then the share of the allowed error that was used, then ULPs.
+fn badness(got: f32, expected: &Expected, refusal: Option<Refusal>) -> f64 {
+    let share = share_of_bound(f64::from(got), expected).unwrap_or(0.0).min(1e30);
+    match refusal {
+        Some(Refusal::Unwritten) => 4e30,
+        Some(Refusal::OraclesDisagree) => 3e30,
+        Some(Refusal::NotFinite) => 2e30,
+        Some(Refusal::Outside) => 1e30 + share,
+        None => share,
+    }
+}
+
+fn share_of_bound(got: f64, expected: &Expected) -> Option<f64> {
+    let distance = (got - expected.bound.value).abs();
+    match expected.bound.is_decided() {
+        false => None,
+        true if distance == 0.0 => Some(0.0),
+        true => Some(distance / expected.bound.error).filter(|share| !share.is_nan()),
+    }
+}
+
+fn worst(input: &[f32], output: usize, got: f32, expected: &Expected) -> Worst {
+    let finite = |x: f64| x.is_finite().then_some(x);
+    let got64 = f64::from(got);
+    Worst {
+        ulp: finite(error_ulps(got64, expected.truth)),
+        abs: finite((got64 - expected.truth).abs()),
+        of_bound: share_of_bound(got64, expected).and_then(finite),
+        input: input.to_vec(),
+        output,
+        written: !is_unwritten(got),
+        got: Number(got64),
+        truth: Number(expected.truth),
+        interval: [Number(expected.bound.low()), Number(expected.bound.high())],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bossage_runner::SENTINEL;
+
+    use super::{Comparison, Expected, Refusal};
+    use crate::bounded::Bounded;
+
+    fn expect(truth: f64, error: f64) -> Expected {
+        Expected { truth, bound: Bounded::within(truth, error) }
+    }
+
+    fn compare(got: f32, expected: Expected) -> Comparison {
+        let mut comparison = Comparison::default();
+        comparison.item(&[7.0], &[got], &[expected]);
+        comparison
+    }
+
+    #[test]
+    fn inside_passes_and_one_ulp_beyond_fails() {
+        let error = f64::from(f32::EPSILON);
+        assert_eq!(compare(1.0f32.next_up(), expect(1.0, error)).refused, 0);
+        let outside = compare(1.0f32.next_up().next_up(), expect(1.0, error));
+        assert_eq!((outside.refused, outside.refusal), (1, Some(Refusal::Outside)));
+        let worst = outside.worst.unwrap();
+        assert_eq!((worst.ulp, worst.of_bound, worst.input), (Some(2.0), Some(2.0), vec![7.0]));
+    }
+
+    #[test]
+    fn unwritten_is_refused_even_where_the_rules_say_nothing() {
+        let open = Expected { truth: f64::NAN, bound: Bounded::OPEN };
+        assert_eq!(compare(SENTINEL, open).refusal, Some(Refusal::Unwritten));
+        let other = compare(f32::NAN, open);
+        assert_eq!((other.refused, other.undecided), (0, 1));
+    }
+
+    #[test]
+    fn nan_is_refused_where_the_interval_is_finite() {
+        assert_eq!(compare(f32::NAN, expect(0.0, 1.0)).refusal, Some(Refusal::NotFinite));
+        assert_eq!(compare(f32::INFINITY, expect(0.0, 1.0)).refusal, Some(Refusal::NotFinite));
+    }
+
+    #[test]
+    fn disagreeing_oracles_are_refused_although_the_output_is_in_the_interval() {
+        let expected = Expected { truth: 2.0, bound: Bounded::within(1.0, 0.1) };
+        assert_eq!(compare(1.0, expected).refusal, Some(Refusal::OraclesDisagree));
+    }
+
+    #[test]
+    fn too_few_outputs_are_refused() {
+        let mut comparison = Comparison::default();
+        comparison.item(&[], &[1.0], &[expect(1.0, 0.0), expect(1.0, 0.0)]);
+        assert_eq!((comparison.refused, comparison.refusal), (1, Some(Refusal::Unwritten)));
+    }
+
+    #[test]
+    fn merging_keeps_the_worst() {
+        let mut all = compare(1.0, expect(1.0, 0.1));
+        all.merge(compare(1.5, expect(1.0, 0.1)));
+        all.merge(compare(1.05, expect(1.0, 0.1)));
+        assert_eq!((all.outputs, all.refused), (3, 1));
+        assert_eq!(all.worst.unwrap().got.0, 1.5);
+    }
+}

@@ -1,0 +1,60 @@
+//! What can go wrong before there is anything to compare.
+
+use std::path::PathBuf;
+
+/// Failures of the call or the environment. A shader that fails is a verdict, not an error.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// No case has that in its name.
+    #[error("no case matches `{filter}`; `bossage conform --list` names all {known} cases")]
+    NoSuchCase {
+        /// The filter that was given.
+        filter: String,
+        /// How many cases there are.
+        known: usize,
+    },
+    /// No route of that name.
+    #[error("no route is called `{given}`; there are: {}", .known.join(", "))]
+    NoSuchRoute {
+        /// What was given.
+        given: String,
+        /// The names that exist.
+        known: Vec<&'static str>,
+    },
+    /// A shard that cannot be.
+    #[error("shard {index}/{count} cannot be: the first number goes from 1 to the second")]
+    BadShard {
+        /// The part asked for, from 1.
+        index: usize,
+        /// The number of parts.
+        count: usize,
+    },
+    /// No adapter, or none that matches.
+    #[error("no adapter to run on")]
+    Adapter(#[source] bossage_runner::Error),
+    /// The examples' folder cannot be read.
+    #[error("cannot read the scenes in {}", path.display())]
+    Scenes {
+        /// The folder.
+        path: PathBuf,
+        /// What the system said.
+        #[source]
+        source: std::io::Error,
+    },
+    /// The report cannot be put into its format.
+    #[error("cannot write the report as {format}: {message}")]
+    Report {
+        /// `JSON` or `JUnit`.
+        format: &'static str,
+        /// What the writer said.
+        message: String,
+    },
+}
+
+impl Error {
+    /// Whether the environment lacks what was demanded (exit code 3) rather than the call being wrong (2).
+    #[must_use]
+    pub fn is_missing_environment(&self) -> bool {
+        matches!(self, Self::Adapter(_))
+    }
+}

@@ -1,0 +1,229 @@
+//! The report as one self-contained page: no script, no font and no picture from elsewhere.
+//!
+//! Everything works by keyboard (links and `details`), headings are in order, tables have captions and scoped headers,
+//! colours follow the reader's light or dark setting and never carry meaning alone. No cell of the matrix is empty:
+//! what was not run says so.
+
+use std::collections::BTreeSet;
+
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+use super::{CaseResult, Report, Totals};
+use crate::route::Route;
+use crate::verdict::Verdict;
+
+const STYLE: &str = include_str!("style.css");
+
+/// The whole page.
+#[must_use]
+pub fn write(report: &Report) -> String {
+    page("Bossage numeric conformance", &body(report)).into_string()
+}
+
+/// The report without the page around it, for embedding in another page.
+#[must_use]
+pub fn fragment(report: &Report) -> String {
+    html! { style { (PreEscaped(STYLE)) } (body(report)) }.into_string()
+}
+
+fn page(title: &str, content: &Markup) -> Markup {
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                header { h1 { (title) } }
+                main { (content) }
+            }
+        }
+    }
+}
+
+fn body(report: &Report) -> Markup {
+    html! {
+        (summary(report))
+        (matrix(report))
+        (failures(report))
+        (all_cases(report))
+        (environment(report))
+    }
+}
+
+fn summary(report: &Report) -> Markup {
+    let totals = report.totals();
+    let verdict = if report.is_ok() { "Nothing failed." } else { "This run did not pass." };
+    let share = 100.0 * (totals.undecided + totals.forked) as f64 / totals.outputs.max(1) as f64;
+    html! {
+        section aria-labelledby="summary" {
+            h2 id="summary" { "Summary" }
+            p class="verdict" { (verdict) }
+            dl class="totals" {
+                @for verdict in Verdict::ALL {
+                    div class=(verdict.as_str()) { dt { (verdict.label()) } dd { (totals.count(verdict)) } }
+                }
+                div { dt { "inputs" } dd { (grouped(totals.inputs)) } }
+                div { dt { "outputs compared" } dd { (grouped(totals.outputs)) } }
+                div { dt { "undecided" } dd { (format!("{share:.3} %")) } }
+            }
+            p { "An output passes when it lies in the interval that the accuracy rules of WGSL allow at its input. " em { "Undecided" }
+                " outputs are those on which the rules say nothing, or for which a comparison allows two results." }
+        }
+    }
+}
+
+/// Techniques down, routes and adapters across.
+fn matrix(report: &Report) -> Markup {
+    let columns: BTreeSet<(Route, &str)> = report.cases.iter().map(|c| (c.route, c.adapter.as_str())).collect();
+    html! {
+        section aria-labelledby="matrix" {
+            h2 id="matrix" { "Techniques" }
+            div class="scroll" tabindex="0" role="region" aria-labelledby="matrix" {
+                table {
+                    caption { "Gravest verdict, cases and worst error of each technique on each route and adapter" }
+                    thead { tr {
+                        th scope="col" { "technique" }
+                        th scope="col" { "form" }
+                        @for (route, adapter) in &columns { th scope="col" { (route) br; small { (adapter) } } }
+                    } }
+                    tbody {
+                        @for ((technique, form), cases) in report.by_technique() {
+                            tr {
+                                th scope="row" { a href=(format!("#{}", anchor(&technique, form.as_deref()))) { (technique) } }
+                                td { (form.as_deref().unwrap_or("one form")) }
+                                @for (route, adapter) in &columns {
+                                    (cell(cases.iter().copied().filter(|c| c.route == *route && c.adapter == *adapter)))
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn cell<'a>(cases: impl Iterator<Item = &'a CaseResult>) -> Markup {
+    let cases: Vec<&CaseResult> = cases.collect();
+    if cases.is_empty() {
+        return html! { td class="skip" { "not run" } };
+    }
+    let totals = Totals::of(cases.iter().copied());
+    let gravest = cases.iter().fold(Verdict::Pass, |gravest, case| gravest.graver(case.verdict));
+    let worst = cases.iter().filter_map(|case| case.worst.as_ref()?.of_bound).fold(0.0, f64::max);
+    html! {
+        td class=(gravest.as_str()) {
+            strong { (gravest.label()) } " "
+            (totals.cases) " cases, " (grouped(totals.outputs)) " outputs"
+            @if totals.expected_fail > 0 { ", " (totals.expected_fail) " known defects" }
+            @if worst > 0.0 { br; small { "worst " (percent(worst)) " of the allowed error" } }
+        }
+    }
+}
+
+fn failures(report: &Report) -> Markup {
+    let failed: Vec<&CaseResult> = report.failures().collect();
+    html! {
+        section aria-labelledby="failures" {
+            h2 id="failures" { "Failures" }
+            @if failed.is_empty() { p { "None." } }
+            @for case in failed { (failure(case)) }
+        }
+    }
+}
+
+fn failure(case: &CaseResult) -> Markup {
+    html! {
+        article class="fail" {
+            h3 { code { (case.id) } }
+            p { (case.reason.as_deref().unwrap_or("no reason given")) " (" (case.route) ", " (case.adapter) ")" }
+            @if let Some(worst) = &case.worst { pre { (worst) } }
+            p { "Run it again: " code { (case.rerun()) } }
+        }
+    }
+}
+
+fn all_cases(report: &Report) -> Markup {
+    html! {
+        section aria-labelledby="cases" {
+            h2 id="cases" { "Cases" }
+            @for ((technique, form), cases) in report.by_technique() {
+                details id=(anchor(&technique, form.as_deref())) {
+                    summary { (technique) @if let Some(form) = &form { ", " (form) } " – " (cases.len()) " results" }
+                    div class="scroll" tabindex="0" role="region" aria-label=(format!("cases of {technique}")) {
+                        (case_table(&technique, &cases))
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn case_table(technique: &str, cases: &[&CaseResult]) -> Markup {
+    html! {
+        table {
+            caption { "Cases of " (technique) }
+            thead { tr {
+                @for title in ["case", "route", "adapter", "verdict", "outputs", "undecided", "worst ULP", "worst error", "of the bound", "judged by", "reason"] {
+                    th scope="col" { (title) }
+                }
+            } }
+            tbody { @for case in cases { (case_row(case)) } }
+        }
+    }
+}
+
+fn case_row(case: &CaseResult) -> Markup {
+    let worst = case.worst.as_ref();
+    html! {
+        tr {
+            th scope="row" { code { (case.id) } }
+            td { (case.route) }
+            td { (case.adapter) }
+            td class=(case.verdict.as_str()) { (case.verdict.label()) }
+            td class="number" { (grouped(case.outputs)) }
+            td class="number" { (percent(case.undecided_share())) }
+            td class="number" { (worst.and_then(|w| w.ulp).map_or("–".to_owned(), |x| format!("{x:.3}"))) }
+            td class="number" { (worst.and_then(|w| w.abs).map_or("–".to_owned(), |x| format!("{x:.3e}"))) }
+            td class="number" { (worst.and_then(|w| w.of_bound).map_or("–".to_owned(), percent)) }
+            td { (case.basis.join(", ")) }
+            td { (case.reason.as_deref().unwrap_or("–")) }
+        }
+    }
+}
+
+fn environment(report: &Report) -> Markup {
+    html! {
+        section aria-labelledby="environment" {
+            h2 id="environment" { "Environment" }
+            table {
+                caption { "What this run ran on" }
+                tbody {
+                    @for (name, value) in report.environment.rows() {
+                        tr { th scope="row" { (name) } td { (value) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn anchor(technique: &str, form: Option<&str>) -> String {
+    format!("cases-{technique}-{}", form.unwrap_or("only"))
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// Digits in groups of three, with a space that does not break.
+fn grouped(n: usize) -> String {
+    let digits = n.to_string();
+    let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|g| std::str::from_utf8(g).ok()).collect();
+    groups.join("\u{202f}")
+}
