@@ -102,11 +102,17 @@ pub(crate) fn select(selector: &AdapterSelector) -> Result<(AdapterInfo, wgpu::A
         return Err(Error::NoAdapter);
     }
     let names = all.iter().map(|(info, _)| info.name.clone()).collect();
-    let mut taken: Vec<_> = all.into_iter().filter(|(info, _)| selector.matches(info)).collect();
+    let mut taken: Vec<_> = all
+        .into_iter()
+        .filter(|(info, _)| selector.matches(info))
+        .collect();
     taken.sort_by_key(|(info, _)| info.kind == DeviceKind::Cpu);
     taken.into_iter().next().ok_or_else(|| match selector {
         AdapterSelector::Any => Error::NoAdapter,
-        AdapterSelector::Named(wanted) => Error::NoSuchAdapter { wanted: wanted.clone(), found: names },
+        AdapterSelector::Named(wanted) => Error::NoSuchAdapter {
+            wanted: wanted.clone(),
+            found: names,
+        },
     })
 }
 
@@ -118,7 +124,9 @@ fn found() -> Vec<(AdapterInfo, wgpu::Adapter)> {
     let instance = wgpu::Instance::new(descriptor);
     let cpu = cpu_model();
     let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::VULKAN));
-    let described = adapters.into_iter().map(|adapter| (describe(&adapter.get_info(), &cpu), adapter));
+    let described = adapters
+        .into_iter()
+        .map(|adapter| (describe(&adapter.get_info(), &cpu), adapter));
     let mut list: Vec<_> = described.collect();
     list.sort_by(|(a, _), (b, _)| a.cmp(b));
     list
@@ -149,7 +157,10 @@ fn device_kind(kind: wgpu::DeviceType) -> DeviceKind {
 /// The version after the word `LLVM`.
 fn llvm_version(text: &str) -> Option<String> {
     let after = text.split("LLVM ").nth(1)?;
-    let version: String = after.chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect();
+    let version: String = after
+        .chars()
+        .take_while(|c| c.is_ascii_digit() || *c == '.')
+        .collect();
     (!version.is_empty()).then_some(version)
 }
 
@@ -191,13 +202,21 @@ mod tests {
 
     #[test]
     fn lavapipe_is_not_the_name_of_anything_else() {
-        let other = AdapterInfo { name: "Radeon".into(), driver: "radv".into(), driver_info: "Mesa".into(), ..lavapipe() };
+        let other = AdapterInfo {
+            name: "Radeon".into(),
+            driver: "radv".into(),
+            driver_info: "Mesa".into(),
+            ..lavapipe()
+        };
         assert!(!AdapterSelector::named("lavapipe").matches(&other));
     }
 
     #[test]
     fn llvm_version_is_read_where_there_is_one() {
-        assert_eq!(llvm_version("Mesa 22.3.6 (LLVM 15.0.6)").as_deref(), Some("15.0.6"));
+        assert_eq!(
+            llvm_version("Mesa 22.3.6 (LLVM 15.0.6)").as_deref(),
+            Some("15.0.6")
+        );
         assert_eq!(llvm_version("Mesa 22.3.6"), None);
         assert_eq!(llvm_version("LLVM unknown"), None);
     }

@@ -52,7 +52,11 @@ impl Shader<'_> {
     /// What the entry point is called in this code. WGSL is either the source, with the source's name, or emitted, with the
     /// name that the manifest states for it.
     pub(crate) fn entry_point(&self) -> &str {
-        let emitted = self.entry.entry_points.get(self.code.route()).unwrap_or(&self.entry.name);
+        let emitted = self
+            .entry
+            .entry_points
+            .get(self.code.route())
+            .unwrap_or(&self.entry.name);
         match self.code {
             Code::Wgsl(text) if !defines(text, emitted) => &self.entry.name,
             Code::Wgsl(_) | Code::Spirv(_) => emitted,

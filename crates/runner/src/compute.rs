@@ -4,10 +4,14 @@
 
 use std::collections::BTreeMap;
 
+use bossage_translate::Stage;
+
+use crate::binding::{self, Bound};
 use crate::code::Shader;
 use crate::device::Device;
 use crate::error::Error;
 use crate::resources::Resources;
+use crate::{layout, pipeline, readback};
 
 /// A dispatch.
 #[derive(Clone, Debug)]
@@ -51,6 +55,77 @@ impl ComputeJob<'_> {
     /// # Errors
     /// When the resources don't fit the shader, the driver refuses, or memory ends.
     pub fn run(&self, device: &Device) -> Result<ComputeOutput, Error> {
-        Err(Error::Internal { job: self.name.to_owned(), message: format!("{} can't run yet", device.info()) })
+        self.prepare(device)?.run(device, self.name)
+    }
+}
+
+/// A job with everything on the device, to be dispatched once or many times.
+pub(crate) struct PreparedCompute {
+    pipeline: wgpu::ComputePipeline,
+    bound: Bound,
+    workgroups: [u32; 3],
+}
+
+impl ComputeJob<'_> {
+    pub(crate) fn prepare(&self, device: &Device) -> Result<PreparedCompute, Error> {
+        if self.shader.entry.stage != Stage::Compute {
+            let problem = format!("it is a {} shader", self.shader.entry.stage);
+            return Err(layout::misfit(self.shader.entry, self.name, problem));
+        }
+        let limit = u64::from(device.limits().max_compute_workgroups_per_dimension);
+        for count in self.workgroups {
+            device.within(
+                self.name,
+                "the number of workgroups along an axis",
+                u64::from(count),
+                limit,
+            )?;
+        }
+        let bound = binding::bind(device, self.name, &[&self.shader], &self.resources)?;
+        let stage = pipeline::stage(device, self.name, &self.shader)?;
+        let pipeline = pipeline::compute(device, self.name, stage, &bound.layout)?;
+        Ok(PreparedCompute {
+            pipeline,
+            bound,
+            workgroups: self.workgroups,
+        })
+    }
+}
+
+impl PreparedCompute {
+    /// Encodes one pass of `repetitions` dispatches.
+    pub(crate) fn encode(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        repetitions: u32,
+        timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: None,
+            timestamp_writes,
+        });
+        pass.set_pipeline(&self.pipeline);
+        for (index, group) in (0..).zip(&self.bound.groups) {
+            pass.set_bind_group(index, group.as_ref(), &[]);
+        }
+        let [x, y, z] = self.workgroups;
+        for _ in 0..repetitions {
+            pass.dispatch_workgroups(x, y, z);
+        }
+    }
+
+    fn run(&self, device: &Device, job: &str) -> Result<ComputeOutput, Error> {
+        device.scoped(job, || {
+            let mut encoder = device
+                .device
+                .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            self.encode(&mut encoder, 1, None);
+            let written: Vec<_> = self.bound.written.iter().map(|written| &written.buffer).collect();
+            let bytes = readback::buffers(device, job, encoder, &written)?;
+            let names = self.bound.written.iter().map(|written| written.name.clone());
+            Ok(ComputeOutput {
+                buffers: names.zip(bytes).collect(),
+            })
+        })
     }
 }

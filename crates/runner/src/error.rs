@@ -73,7 +73,9 @@ pub enum Error {
         problem: String,
     },
     /// The two stages of a draw disagree about a binding.
-    #[error("`{job}`: the stages disagree about @group({group}) @binding({binding}): `{first}` against `{second}`")]
+    #[error(
+        "`{job}`: the stages disagree about @group({group}) @binding({binding}): `{first}` against `{second}`"
+    )]
     StagesDisagree {
         /// The job.
         job: String,

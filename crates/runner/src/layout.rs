@@ -14,11 +14,22 @@ pub(crate) struct Located {
 
 /// The values of a list that have a location, in the order of their locations.
 pub(crate) fn located(entry: &Entry, values: &[Varying]) -> Result<Vec<Located>, Error> {
-    let with_location = values.iter().filter_map(|value| value.location.map(|location| (value, location)));
+    let with_location = values
+        .iter()
+        .filter_map(|value| value.location.map(|location| (value, location)));
     let read = |(value, location): (&Varying, u32)| {
-        let components = float_components(&value.ty)
-            .ok_or_else(|| misfit(entry, &value.name, format!("its type `{}` is not of 32-bit floats", value.ty)))?;
-        Ok(Located { name: value.name.clone(), location, components })
+        let components = float_components(&value.ty).ok_or_else(|| {
+            misfit(
+                entry,
+                &value.name,
+                format!("its type `{}` is not of 32-bit floats", value.ty),
+            )
+        })?;
+        Ok(Located {
+            name: value.name.clone(),
+            location,
+            components,
+        })
     };
     let mut list = with_location.map(read).collect::<Result<Vec<_>, Error>>()?;
     list.sort_by_key(|value| value.location);
@@ -54,19 +65,42 @@ pub(crate) fn buffer_type(kind: Kind) -> Option<wgpu::BindingType> {
         Kind::UniformBuffer => wgpu::BufferBindingType::Uniform,
         Kind::ReadOnlyStorageBuffer => wgpu::BufferBindingType::Storage { read_only: true },
         Kind::StorageBuffer => wgpu::BufferBindingType::Storage { read_only: false },
-        Kind::Texture | Kind::DepthTexture | Kind::StorageTexture | Kind::Sampler | Kind::ComparisonSampler => {
+        Kind::Texture
+        | Kind::DepthTexture
+        | Kind::StorageTexture
+        | Kind::Sampler
+        | Kind::ComparisonSampler => {
             return None;
         }
     };
-    Some(wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None })
+    Some(wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    })
 }
 
 /// wgpu's type of a bound texture of floats, plane or cube.
-pub(crate) fn texture_type(entry: &Entry, binding: &Binding, filterable: bool) -> Result<wgpu::BindingType, Error> {
+pub(crate) fn texture_type(
+    entry: &Entry,
+    binding: &Binding,
+    filterable: bool,
+) -> Result<wgpu::BindingType, Error> {
     let texture = binding.texture.as_ref();
-    let texture = texture.ok_or_else(|| misfit(entry, &binding.name, "the manifest doesn't describe it".to_owned()))?;
-    let view_dimension = view_dimension(texture)
-        .ok_or_else(|| misfit(entry, &binding.name, format!("the runner has no textures of type {}", binding.ty)))?;
+    let texture = texture.ok_or_else(|| {
+        misfit(
+            entry,
+            &binding.name,
+            "the manifest doesn't describe it".to_owned(),
+        )
+    })?;
+    let view_dimension = view_dimension(texture).ok_or_else(|| {
+        misfit(
+            entry,
+            &binding.name,
+            format!("the runner has no textures of type {}", binding.ty),
+        )
+    })?;
     Ok(wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Float { filterable },
         view_dimension,
@@ -87,7 +121,11 @@ fn view_dimension(texture: &Texture) -> Option<wgpu::TextureViewDimension> {
 
 /// An entry of the manifest that the runner can't serve.
 pub(crate) fn misfit(entry: &Entry, name: &str, problem: String) -> Error {
-    Error::Interface { entry: entry.name.clone(), name: name.to_owned(), problem }
+    Error::Interface {
+        entry: entry.name.clone(),
+        name: name.to_owned(),
+        problem,
+    }
 }
 
 #[cfg(test)]

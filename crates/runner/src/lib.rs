@@ -1,21 +1,29 @@
 //! Runs emitted shaders on an adapter: compute and render, read-back, timing.
 
 mod adapter;
+mod binding;
+mod cache;
 mod code;
 mod compute;
 mod device;
 mod error;
 mod layout;
 mod mesh;
+mod passes;
 mod passthrough;
+mod pipeline;
 mod probe;
+mod readback;
 mod render;
 mod resources;
 mod sentinel;
 mod texture;
 mod timing;
+mod uniforms;
+mod upload;
 
 pub use adapter::{AdapterInfo, AdapterSelector, DeviceKind, adapters};
+pub use cache::CacheSizes;
 pub use code::{Code, Shader};
 pub use compute::{ComputeJob, ComputeOutput};
 pub use device::Device;

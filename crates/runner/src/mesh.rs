@@ -29,13 +29,19 @@ impl Mesh {
     /// A mesh of triangles without attributes yet.
     #[must_use]
     pub fn new(indices: Vec<u32>) -> Self {
-        Self { attributes: BTreeMap::new(), indices }
+        Self {
+            attributes: BTreeMap::new(),
+            indices,
+        }
     }
 
     /// Adds an attribute of `N` floats a vertex.
     #[must_use]
     pub fn with<const N: usize>(mut self, name: &str, values: &[[f32; N]]) -> Self {
-        let attribute = Attribute { components: N as u32, values: values.as_flattened().to_vec() };
+        let attribute = Attribute {
+            components: N as u32,
+            values: values.as_flattened().to_vec(),
+        };
         self.attributes.insert(name.to_owned(), attribute);
         self
     }
@@ -46,27 +52,50 @@ impl Mesh {
     /// [`Error::Mesh`], naming the attribute.
     pub fn validate(&self, job: &str, entry: &Entry) -> Result<(), Error> {
         let wrong = |attribute: &str, problem: String| {
-            Err(Error::Mesh { job: job.to_owned(), attribute: attribute.to_owned(), problem })
+            Err(Error::Mesh {
+                job: job.to_owned(),
+                attribute: attribute.to_owned(),
+                problem,
+            })
         };
         if self.indices.is_empty() || !self.indices.len().is_multiple_of(3) {
-            return wrong("indices", format!("{} indices make no whole triangles", self.indices.len()));
+            return wrong(
+                "indices",
+                format!("{} indices make no whole triangles", self.indices.len()),
+            );
         }
         let highest = self.indices.iter().copied().max().unwrap_or(0) as usize;
         for input in layout::located(entry, &entry.inputs)? {
             let Some(attribute) = self.attributes.get(&input.name) else {
                 let known: Vec<_> = self.attributes.keys().map(String::as_str).collect();
-                return wrong(&input.name, format!("the mesh doesn't have it; it has: {}", known.join(", ")));
+                return wrong(
+                    &input.name,
+                    format!("the mesh doesn't have it; it has: {}", known.join(", ")),
+                );
             };
             if attribute.components != input.components {
                 let (given, read) = (attribute.components, input.components);
-                return wrong(&input.name, format!("it has {given} components a vertex, the shader reads {read}"));
+                return wrong(
+                    &input.name,
+                    format!("it has {given} components a vertex, the shader reads {read}"),
+                );
             }
             let vertices = attribute.values.len() / attribute.components as usize;
-            if !attribute.values.len().is_multiple_of(attribute.components as usize) {
-                return wrong(&input.name, format!("{} floats make no whole vertices", attribute.values.len()));
+            if !attribute
+                .values
+                .len()
+                .is_multiple_of(attribute.components as usize)
+            {
+                return wrong(
+                    &input.name,
+                    format!("{} floats make no whole vertices", attribute.values.len()),
+                );
             }
             if highest >= vertices {
-                return wrong(&input.name, format!("index {highest} points beyond its {vertices} vertices"));
+                return wrong(
+                    &input.name,
+                    format!("index {highest} points beyond its {vertices} vertices"),
+                );
             }
         }
         Ok(())

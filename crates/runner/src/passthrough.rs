@@ -20,14 +20,19 @@ pub(crate) struct Module {
 
 /// Reads the outer form of a SPIR-V module.
 pub(crate) fn read(job: &str, bytes: &[u8]) -> Result<Module, Error> {
-    let wrong = |problem: String| Error::NotSpirv { job: job.to_owned(), problem };
+    let wrong = |problem: String| Error::NotSpirv {
+        job: job.to_owned(),
+        problem,
+    };
     let (chunks, rest) = bytes.as_chunks::<4>();
     if !rest.is_empty() {
         return Err(wrong(format!("{} bytes are no whole words", bytes.len())));
     }
     let words: Vec<u32> = chunks.iter().map(|chunk| u32::from_le_bytes(*chunk)).collect();
     if words.first() != Some(&MAGIC) || words.len() < HEADER_WORDS {
-        return Err(wrong("it doesn't begin with the header of a little-endian module".to_owned()));
+        return Err(wrong(
+            "it doesn't begin with the header of a little-endian module".to_owned(),
+        ));
     }
     let entries = entry_points(&words).map_err(wrong)?;
     Ok(Module { words, entries })
@@ -56,7 +61,10 @@ fn literal(words: &[u32]) -> String {
 }
 
 /// Hands the words to the driver.
-#[allow(unsafe_code, reason = "wgpu offers no safe way to run SPIR-V as it was emitted, which is what is to be tested")]
+#[allow(
+    unsafe_code,
+    reason = "wgpu offers no safe way to run SPIR-V as it was emitted, which is what is to be tested"
+)]
 pub(crate) fn create(device: &wgpu::Device, label: &str, module: &Module) -> wgpu::ShaderModule {
     let entry = |name: &String| wgpu::PassthroughShaderEntryPoint {
         name: Cow::Owned(name.clone()),
@@ -84,7 +92,20 @@ mod tests {
     #[test]
     fn entry_points_are_found_by_name() {
         let name = u32::from_le_bytes(*b"main");
-        let words = [MAGIC, 0x1_0000, 0, 9, 0, (2 << 16) | 17, 1, (5 << 16) | OP_ENTRY_POINT, 5, 3, name, 0];
+        let words = [
+            MAGIC,
+            0x1_0000,
+            0,
+            9,
+            0,
+            (2 << 16) | 17,
+            1,
+            (5 << 16) | OP_ENTRY_POINT,
+            5,
+            3,
+            name,
+            0,
+        ];
         assert_eq!(read("test", &bytes(&words)).unwrap().entries, ["main"]);
     }
 
@@ -95,7 +116,10 @@ mod tests {
         let endless = [&header[..], &[17]].concat();
         let swapped = [MAGIC.swap_bytes(), 0, 0, 0, 0];
         for words in [&header[..4], &overrun, &endless, &swapped, &[]] {
-            assert!(matches!(read("test", &bytes(words)), Err(Error::NotSpirv { .. })), "{words:?}");
+            assert!(
+                matches!(read("test", &bytes(words)), Err(Error::NotSpirv { .. })),
+                "{words:?}"
+            );
         }
         assert!(matches!(read("test", &[3, 2, 0x23]), Err(Error::NotSpirv { .. })));
     }

@@ -138,6 +138,11 @@ impl ProbeJob<'_> {
             resources.buffers.insert(INPUTS.to_owned(), bytes);
         }
         let groups = items.div_ceil(self.group_items()) as u32;
-        ComputeJob { name: self.name, shader: self.shader, resources, workgroups: [groups, 1, 1] }
+        ComputeJob {
+            name: self.name,
+            shader: self.shader,
+            resources,
+            workgroups: [groups, 1, 1],
+        }
     }
 }

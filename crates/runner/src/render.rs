@@ -7,7 +7,6 @@
 //! A target that is cleared to the [sentinel](crate::SENTINEL) tells which pixels a draw wrote: see
 //! [`Picture::covered`]. No multisampling.
 
-
 use crate::code::Shader;
 use crate::device::Device;
 use crate::error::Error;
@@ -53,8 +52,8 @@ pub enum Depth {
     /// Nearer wins, and is written.
     #[default]
     TestAndWrite,
-    /// Equal or nearer wins, nothing is written: for a second pass over the same mesh.
-    TestEqual,
+    /// What is as near or nearer wins, and nothing is written: for a second pass over the same mesh.
+    TestOnly,
     /// No test, nothing is written.
     Ignore,
 }
@@ -114,7 +113,9 @@ impl Picture {
         if x >= self.width || y >= self.height {
             return None;
         }
-        self.pixels.get(y as usize * self.width as usize + x as usize).copied()
+        self.pixels
+            .get(y as usize * self.width as usize + x as usize)
+            .copied()
     }
 
     /// For each pixel of a target that was cleared to the sentinel: whether a draw wrote it.
@@ -134,13 +135,12 @@ pub struct RenderOutput {
     pub depth: Option<Vec<f32>>,
 }
 
-
 impl RenderJob<'_> {
     /// Renders and reads back.
     ///
     /// # Errors
     /// When meshes, resources or targets don't fit the shaders, the driver refuses, or memory ends.
     pub fn run(&self, device: &Device) -> Result<RenderOutput, Error> {
-        Err(Error::Internal { job: self.name.to_owned(), message: format!("{} can't run yet", device.info()) })
+        self.prepare(device)?.run(device, self)
     }
 }

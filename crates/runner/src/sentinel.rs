@@ -22,13 +22,21 @@ pub fn is_unwritten(value: f32) -> bool {
 /// The indices of the values that still hold the sentinel: the outputs that nothing wrote.
 #[must_use]
 pub fn unwritten(values: &[f32]) -> Vec<usize> {
-    let marked = values.iter().enumerate().filter(|(_, value)| is_unwritten(**value));
+    let marked = values
+        .iter()
+        .enumerate()
+        .filter(|(_, value)| is_unwritten(**value));
     marked.map(|(index, _)| index).collect()
 }
 
 /// `bytes` bytes of the repeated pattern (a last partial word is filled as far as it goes).
 pub(crate) fn fill(bytes: usize) -> Vec<u8> {
-    SENTINEL_BITS.to_le_bytes().into_iter().cycle().take(bytes).collect()
+    SENTINEL_BITS
+        .to_le_bytes()
+        .into_iter()
+        .cycle()
+        .take(bytes)
+        .collect()
 }
 
 #[cfg(test)]

@@ -25,6 +25,12 @@ impl TexelFormat {
         }
     }
 
+    /// Whether its components are 32-bit floats, which not every device filters.
+    #[must_use]
+    pub fn is_float(self) -> bool {
+        self != Self::Rgba8Unorm
+    }
+
     pub(crate) fn wgpu(self) -> wgpu::TextureFormat {
         match self {
             Self::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
@@ -74,13 +80,23 @@ impl TextureData {
     /// A plane of one level in [`TexelFormat::Rgba8Unorm`].
     #[must_use]
     pub fn rgba8(width: u32, height: u32, texels: &[[u8; 4]]) -> Self {
-        Self::plane(width, height, TexelFormat::Rgba8Unorm, bytemuck::cast_slice(texels))
+        Self::plane(
+            width,
+            height,
+            TexelFormat::Rgba8Unorm,
+            bytemuck::cast_slice(texels),
+        )
     }
 
     /// A plane of one level in [`TexelFormat::Rgba32Float`].
     #[must_use]
     pub fn rgba32f(width: u32, height: u32, texels: &[[f32; 4]]) -> Self {
-        Self::plane(width, height, TexelFormat::Rgba32Float, bytemuck::cast_slice(texels))
+        Self::plane(
+            width,
+            height,
+            TexelFormat::Rgba32Float,
+            bytemuck::cast_slice(texels),
+        )
     }
 
     /// A plane of one level in [`TexelFormat::R32Float`].
@@ -90,7 +106,13 @@ impl TextureData {
     }
 
     fn plane(width: u32, height: u32, format: TexelFormat, bytes: &[u8]) -> Self {
-        Self { width, height, format, dimension: TextureDimension::Plane, levels: vec![bytes.to_vec()] }
+        Self {
+            width,
+            height,
+            format,
+            dimension: TextureDimension::Plane,
+            levels: vec![bytes.to_vec()],
+        }
     }
 
     /// Adds the next smaller level.
@@ -112,21 +134,37 @@ impl TextureData {
     /// # Errors
     /// [`Error::Texture`], naming the level that is off.
     pub fn validate(&self, name: &str) -> Result<(), Error> {
-        let wrong = |problem: String| Err(Error::Texture { name: name.to_owned(), problem });
+        let wrong = |problem: String| {
+            Err(Error::Texture {
+                name: name.to_owned(),
+                problem,
+            })
+        };
         if self.width == 0 || self.height == 0 {
             return wrong(format!("its size is {} x {}", self.width, self.height));
         }
         if self.dimension == TextureDimension::Cube && self.width != self.height {
-            return wrong(format!("a cube's faces are square, not {} x {}", self.width, self.height));
+            return wrong(format!(
+                "a cube's faces are square, not {} x {}",
+                self.width, self.height
+            ));
         }
         let most = self.width.max(self.height).ilog2() as usize + 1;
         if self.levels.is_empty() || self.levels.len() > most {
-            return wrong(format!("it has {} levels; 1 to {most} are possible", self.levels.len()));
+            return wrong(format!(
+                "it has {} levels; 1 to {most} are possible",
+                self.levels.len()
+            ));
         }
-        match (0..).zip(&self.levels).find(|(level, bytes)| bytes.len() != self.level_bytes(*level)) {
-            Some((level, bytes)) => {
-                wrong(format!("level {level} has {} bytes instead of {}", bytes.len(), self.level_bytes(level)))
-            }
+        match (0..)
+            .zip(&self.levels)
+            .find(|(level, bytes)| bytes.len() != self.level_bytes(*level))
+        {
+            Some((level, bytes)) => wrong(format!(
+                "level {level} has {} bytes instead of {}",
+                bytes.len(),
+                self.level_bytes(level)
+            )),
             None => Ok(()),
         }
     }
@@ -184,7 +222,12 @@ pub struct SamplerSettings {
 
 impl Default for SamplerSettings {
     fn default() -> Self {
-        Self { address: AddressMode::Wrap, filter: Filter::Linear, mip_filter: Filter::Linear, anisotropy: 1 }
+        Self {
+            address: AddressMode::Wrap,
+            filter: Filter::Linear,
+            mip_filter: Filter::Linear,
+            anisotropy: 1,
+        }
     }
 }
 

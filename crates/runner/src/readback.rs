@@ -1,0 +1,148 @@
+//! Brings what the device holds back into memory.
+
+use std::sync::Arc;
+use std::sync::Mutex;
+
+use crate::device::{Device, lock};
+use crate::error::Error;
+
+/// Bytes that a copy into this module's buffers must be a multiple of, a row.
+const ROW_ALIGNMENT: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
+
+/// A buffer that the device copies into and the CPU reads.
+pub(crate) struct Staging {
+    buffer: wgpu::Buffer,
+}
+
+impl Staging {
+    pub(crate) fn new(device: &Device, label: &str, bytes: u64) -> Self {
+        let buffer = device.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: bytes,
+            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+            mapped_at_creation: false,
+        });
+        Self { buffer }
+    }
+
+    /// The buffer to copy into.
+    pub(crate) fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
+    }
+
+    /// Waits for the device and reads the bytes. Everything that copies into the buffer must have been submitted.
+    pub(crate) fn read(&self, device: &Device, job: &str) -> Result<Vec<u8>, Error> {
+        let failed = |message: String| Error::Internal {
+            job: job.to_owned(),
+            message,
+        };
+        let mapped = Arc::new(Mutex::new(None));
+        let answer = Arc::clone(&mapped);
+        self.buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+            *lock(&answer) = Some(result)
+        });
+        device.wait(job)?;
+        match lock(&mapped).take() {
+            Some(Ok(())) => {}
+            Some(Err(error)) => return Err(failed(format!("reading back: {error}"))),
+            None => return Err(failed("reading back: the device never answered".to_owned())),
+        }
+        let bytes = self
+            .buffer
+            .get_mapped_range(..)
+            .map_err(|error| failed(format!("reading back: {error}")))?;
+        let copied = bytes.to_vec();
+        drop(bytes);
+        self.buffer.unmap();
+        Ok(copied)
+    }
+}
+
+/// Copies several buffers back in one go, after what `encoder` holds.
+pub(crate) fn buffers(
+    device: &Device,
+    job: &str,
+    mut encoder: wgpu::CommandEncoder,
+    sources: &[&wgpu::Buffer],
+) -> Result<Vec<Vec<u8>>, Error> {
+    let total: u64 = sources.iter().map(|buffer| buffer.size()).sum();
+    if total == 0 {
+        device.queue.submit([encoder.finish()]);
+        return device.wait(job).map(|()| Vec::new());
+    }
+    device.within(
+        job,
+        "the size of all outputs in bytes",
+        total,
+        device.limits().max_buffer_size,
+    )?;
+    let staging = Staging::new(device, job, total);
+    let mut offset = 0;
+    for source in sources {
+        encoder.copy_buffer_to_buffer(source, 0, staging.buffer(), offset, source.size());
+        offset += source.size();
+    }
+    device.queue.submit([encoder.finish()]);
+    let bytes = staging.read(device, job)?;
+    let mut rest = bytes.as_slice();
+    let mut taken = Vec::with_capacity(sources.len());
+    for source in sources {
+        let (own, after) = rest.split_at(source.size() as usize);
+        taken.push(own.to_vec());
+        rest = after;
+    }
+    Ok(taken)
+}
+
+/// A picture on its way back: rows are padded in the staging buffer.
+pub(crate) struct PictureCopy {
+    staging: Staging,
+    row_bytes: u32,
+    padded: u32,
+}
+
+impl PictureCopy {
+    /// Encodes the copy of one aspect of a texture.
+    pub(crate) fn encode(
+        device: &Device,
+        encoder: &mut wgpu::CommandEncoder,
+        texture: &wgpu::Texture,
+        aspect: wgpu::TextureAspect,
+        texel_bytes: u32,
+    ) -> Self {
+        let row_bytes = texture.width() * texel_bytes;
+        let padded = row_bytes.next_multiple_of(ROW_ALIGNMENT);
+        let staging = Staging::new(device, "picture", u64::from(padded) * u64::from(texture.height()));
+        let from = wgpu::TexelCopyTextureInfo {
+            texture,
+            mip_level: 0,
+            origin: wgpu::Origin3d::ZERO,
+            aspect,
+        };
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(padded),
+            rows_per_image: None,
+        };
+        let to = wgpu::TexelCopyBufferInfo {
+            buffer: staging.buffer(),
+            layout,
+        };
+        encoder.copy_texture_to_buffer(from, to, texture.size());
+        Self {
+            staging,
+            row_bytes,
+            padded,
+        }
+    }
+
+    /// The floats, row by row, once everything was submitted.
+    pub(crate) fn read(&self, device: &Device, job: &str) -> Result<Vec<f32>, Error> {
+        let bytes = self.staging.read(device, job)?;
+        let rows = bytes
+            .chunks(self.padded as usize)
+            .map(|row| &row[..self.row_bytes as usize]);
+        let words = rows.flat_map(|row| row.as_chunks::<4>().0);
+        Ok(words.map(|word| f32::from_le_bytes(*word)).collect())
+    }
+}
