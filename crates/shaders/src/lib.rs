@@ -21,19 +21,27 @@
 //! # Ok::<(), bossage_shaders::Error>(())
 //! ```
 
+mod assemble;
+mod check;
 mod error;
 mod feature_set;
+mod features;
+mod kernel;
+mod library;
 mod name;
 mod probe;
+mod probe_entry;
 mod probes;
+mod read;
+mod source;
 mod stage;
 mod technique;
-
-mod library;
+mod user_file;
 
 pub use error::{Error, SourceError};
 pub use feature_set::{Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform};
-pub use library::{AssembledShader, Kernel, Library};
+pub use kernel::Kernel;
+pub use library::{AssembledShader, Library};
 pub use probe::{Field, Probe, ProbeId, Role, Shape, WORKGROUP_SIZE};
 pub use probes::PROBES;
 pub use stage::{FragmentKey, Stage, VertexKey};

@@ -56,10 +56,10 @@ pub enum Shape {
     Vec3,
     /// `vec4f`.
     Vec4,
-    /// `vec4u`, carried as floats.
-    Vec4u,
     /// `mat3x3f`, column by column.
     Mat3,
+    /// `mat4x4f`, column by column.
+    Mat4,
 }
 
 impl Shape {
@@ -70,8 +70,9 @@ impl Shape {
             Shape::F32 | Shape::U32 | Shape::I32 => 1,
             Shape::Vec2 => 2,
             Shape::Vec3 => 3,
-            Shape::Vec4 | Shape::Vec4u => 4,
+            Shape::Vec4 => 4,
             Shape::Mat3 => 9,
+            Shape::Mat4 => 16,
         }
     }
 }
@@ -91,8 +92,12 @@ pub enum Role {
     Snorm,
     /// A height in [0, 1].
     Height,
-    /// A height scale or bias in texture units, or a slope scale.
+    /// A height scale or bias: in texture units, or texels a byte step.
     Scale,
+    /// A factor from height difference to slope.
+    Slope,
+    /// A sum of areas, not negative: at least the length of the sums beside it.
+    Weight,
     /// An elevation z(h) in texture units.
     Elevation,
     /// A texture coordinate.
@@ -103,7 +108,7 @@ pub enum Role {
     Edge,
     /// A linear colour, not negative.
     Colour,
-    /// A cosine; rounding may put it slightly outside [−1, 1].
+    /// A cosine; rounding may put it slightly above 1.
     Cosine,
     /// A specular exponent, above zero.
     Exponent,
@@ -113,9 +118,11 @@ pub enum Role {
     Tangent,
     /// An invertible linear map: columns of an object's matrix.
     Matrix,
-    /// A rotation matrix.
-    Rotation,
-    /// An integer in [0, 255].
+    /// A rigid transform (rotation and translation), as a 4×4 matrix.
+    Rigid,
+    /// A position.
+    Position,
+    /// A byte, in [0, 255].
     Byte,
     /// A texel index, which may lie outside of the image.
     Index,
@@ -123,8 +130,10 @@ pub enum Role {
     Size,
     /// An edge mode: 0 wrap, 1 mirror, 2 clamp.
     EdgeMode,
-    /// An output; nothing to generate.
+    /// An output, to be compared component by component.
     Output,
+    /// An output of which only the direction is promised: it is of unit length (or zero), whatever the truth's length.
+    Direction,
 }
 
 /// One parameter or result of a probed function.
@@ -149,8 +158,8 @@ pub struct Probe {
     pub form: Form,
     /// The entry point.
     pub entry: &'static str,
-    /// The module that holds the function, as `techniques/parallax_offset`.
-    pub module: &'static str,
+    /// The file that holds the function, below `shaders/`.
+    pub file: &'static str,
     /// Floats an item in `inputs`.
     pub input_floats: usize,
     /// Floats an item in `outputs`.

@@ -33,7 +33,7 @@ const HEIGHT_MAPS: &str = "Normal Maps und Height Maps (OpenGL tutorials)";
 pub const TECHNIQUES: &[Technique] = &[
     Technique { id: "blinn_phong", files: &["techniques/blinn_phong.wesl"], forms: BOTH, source: PARALLAX_BUMP },
     Technique { id: "codec_biased", files: &["techniques/codec_biased.wesl"], forms: BOTH, source: HEIGHT_MAPS },
-    Technique { id: "codec_unorm", files: &["techniques/codec_unorm.wesl"], forms: BOTH, source: HEIGHT_MAPS },
+    Technique { id: "codec_unorm", files: &["techniques/codec_unorm.wesl"], forms: HARDENED, source: HEIGHT_MAPS },
     Technique { id: "dot3", files: &["techniques/dot3.wesl"], forms: BOTH, source: DOT3 },
     Technique {
         id: "frame_from_uv",

@@ -1,0 +1,233 @@
+//! The features that `@if` may name, which of them a stage turns on, and the search for misspelt ones.
+//!
+//! WESL takes an unknown feature for a false one; here it is an error. The words are those of the shader sources.
+
+use std::ops::Range;
+
+use wesl::syntax::{
+    Attribute, Attributes, BinaryOperator, CompoundStatement, Expression, ExpressionNode, GlobalDeclaration,
+    GlobalDirective, Statement, TranslationUnit, UnaryOperator,
+};
+
+use crate::feature_set::{Albedo, Alpha, Form, LightingSpace, Lights, NormalSource, Relief, Transform};
+use crate::stage::{FragmentKey, VertexKey};
+
+/// Every feature that the library's sources may name, sorted.
+pub(crate) const KNOWN: &[&str] = &[
+    "albedo_map",
+    "alpha_mask",
+    "any_varying",
+    "capture",
+    "directional_light",
+    "general_transform",
+    "handedness",
+    "lit",
+    "many_lights",
+    "mirrored_uv",
+    "normal_map",
+    "normal_varying",
+    "object_space",
+    "parallax_offset",
+    "parallax_offset_limited",
+    "point_light",
+    "position_varying",
+    "published",
+    "relief",
+    "specular",
+    "tangent_varying",
+    "uv_varying",
+    "view_vector",
+    "world_matrix",
+];
+
+/// The features of a vertex module, sorted.
+pub(crate) fn of_vertex(key: &VertexKey) -> Vec<&'static str> {
+    let general = key.transform == Transform::General;
+    let object_space = key.space == LightingSpace::Object;
+    on([
+        ("general_transform", general),
+        ("handedness", key.tangent && (key.mirrored_uv || general)),
+        ("mirrored_uv", key.mirrored_uv),
+        ("normal_varying", key.normal),
+        ("object_space", object_space),
+        ("position_varying", key.position),
+        ("tangent_varying", key.tangent),
+        ("uv_varying", key.uv),
+        ("world_matrix", !object_space && (key.position || key.tangent || (key.normal && !general))),
+    ])
+}
+
+/// The features of a fragment module, sorted.
+pub(crate) fn of_fragment(key: &FragmentKey, capture: bool) -> Vec<&'static str> {
+    let relief = key.relief != Relief::None;
+    let lit = key.lights != Lights::None;
+    let view = key.specular || relief;
+    let uv = key.albedo == Albedo::Map || key.normal == NormalSource::Map || relief;
+    on([
+        ("albedo_map", key.albedo == Albedo::Map),
+        ("alpha_mask", key.alpha == Alpha::Mask),
+        ("any_varying", lit || relief || uv),
+        ("capture", capture),
+        ("directional_light", key.lights == Lights::Directional),
+        ("handedness", key.handedness),
+        ("lit", lit),
+        ("many_lights", key.lights == Lights::Many),
+        ("normal_map", key.normal == NormalSource::Map),
+        ("normal_varying", lit || relief),
+        ("parallax_offset", key.relief == Relief::ParallaxOffset),
+        ("parallax_offset_limited", key.relief == Relief::ParallaxOffsetLimited),
+        ("point_light", key.lights == Lights::Point),
+        ("position_varying", view || matches!(key.lights, Lights::Point | Lights::Many)),
+        ("published", key.form == Form::Published),
+        ("relief", relief),
+        ("specular", key.specular),
+        ("tangent_varying", key.normal == NormalSource::Map || relief),
+        ("uv_varying", uv),
+        ("view_vector", view),
+    ])
+}
+
+fn on<const N: usize>(features: [(&'static str, bool); N]) -> Vec<&'static str> {
+    features.into_iter().filter_map(|(name, on)| on.then_some(name)).collect()
+}
+
+/// Every feature that a module names, with the place in its text.
+pub(crate) fn used(module: &TranslationUnit) -> Vec<(String, Range<usize>)> {
+    let mut found = Vec::new();
+    for attributes in attribute_lists(module) {
+        for attribute in attributes {
+            if let Attribute::If(condition) | Attribute::Elif(condition) = attribute.node() {
+                names(condition, &mut found);
+            }
+        }
+    }
+    found
+}
+
+/// The feature names in a condition. Anything that is no condition is left for WESL to refuse.
+fn names(condition: &ExpressionNode, found: &mut Vec<(String, Range<usize>)>) {
+    match condition.node() {
+        Expression::TypeOrIdentifier(name) => found.push((name.ident.to_string(), condition.span().range())),
+        Expression::Parenthesized(inner) => names(&inner.expression, found),
+        Expression::Unary(inner) if matches!(inner.operator, UnaryOperator::LogicalNegation) => {
+            names(&inner.operand, found);
+        }
+        Expression::Binary(pair)
+            if matches!(pair.operator, BinaryOperator::ShortCircuitAnd | BinaryOperator::ShortCircuitOr) =>
+        {
+            names(&pair.left, found);
+            names(&pair.right, found);
+        }
+        Expression::Literal(_)
+        | Expression::NamedComponent(_)
+        | Expression::Indexing(_)
+        | Expression::Unary(_)
+        | Expression::Binary(_)
+        | Expression::FunctionCall(_) => {}
+    }
+}
+
+/// Every list of attributes on which WESL allows a condition.
+fn attribute_lists(module: &TranslationUnit) -> Vec<&Attributes> {
+    let mut lists: Vec<&Attributes> = module.imports.iter().map(|import| &import.attributes).collect();
+    lists.extend(module.global_directives.iter().map(|directive| match directive {
+        GlobalDirective::Diagnostic(it) => &it.attributes,
+        GlobalDirective::Enable(it) => &it.attributes,
+        GlobalDirective::Requires(it) => &it.attributes,
+    }));
+    for declaration in &module.global_declarations {
+        of_declaration(declaration.node(), &mut lists);
+    }
+    lists
+}
+
+fn of_declaration<'a>(declaration: &'a GlobalDeclaration, lists: &mut Vec<&'a Attributes>) {
+    match declaration {
+        GlobalDeclaration::Void => {}
+        GlobalDeclaration::Declaration(it) => lists.push(&it.attributes),
+        GlobalDeclaration::TypeAlias(it) => lists.push(&it.attributes),
+        GlobalDeclaration::ConstAssert(it) => lists.push(&it.attributes),
+        GlobalDeclaration::Struct(it) => {
+            lists.push(&it.attributes);
+            lists.extend(it.members.iter().map(|member| &member.attributes));
+        }
+        GlobalDeclaration::Function(it) => {
+            lists.push(&it.attributes);
+            lists.extend(it.parameters.iter().map(|parameter| &parameter.attributes));
+            for statement in statements(&it.body) {
+                lists.extend(attributes_of(statement));
+            }
+        }
+    }
+}
+
+/// Every statement of a body, nested ones included.
+pub(crate) fn statements(body: &CompoundStatement) -> Vec<&Statement> {
+    let mut all = Vec::new();
+    let mut bodies = vec![body];
+    while let Some(body) = bodies.pop() {
+        for statement in &body.statements {
+            all.push(statement.node());
+            bodies.extend(bodies_of(statement.node()));
+            if let Statement::For(it) = statement.node() {
+                all.extend(it.initializer.iter().chain(&it.update).map(|part| part.node()));
+            }
+        }
+    }
+    all
+}
+
+fn bodies_of(statement: &Statement) -> Vec<&CompoundStatement> {
+    match statement {
+        Statement::Compound(it) => vec![it],
+        Statement::If(it) => {
+            let chained = it.else_if_clauses.iter().map(|clause| &clause.body);
+            std::iter::once(&it.if_clause.body).chain(chained).chain(it.else_clause.iter().map(|c| &c.body)).collect()
+        }
+        Statement::Switch(it) => it.clauses.iter().map(|clause| &clause.body).collect(),
+        Statement::Loop(it) => std::iter::once(&it.body).chain(it.continuing.iter().map(|c| &c.body)).collect(),
+        Statement::For(it) => vec![&it.body],
+        Statement::While(it) => vec![&it.body],
+        Statement::Void
+        | Statement::Assignment(_)
+        | Statement::Increment(_)
+        | Statement::Decrement(_)
+        | Statement::Break(_)
+        | Statement::Continue(_)
+        | Statement::Return(_)
+        | Statement::Discard(_)
+        | Statement::FunctionCall(_)
+        | Statement::ConstAssert(_)
+        | Statement::Declaration(_) => Vec::new(),
+    }
+}
+
+fn attributes_of(statement: &Statement) -> Vec<&Attributes> {
+    match statement {
+        Statement::Void => Vec::new(),
+        Statement::Compound(it) => vec![&it.attributes],
+        Statement::Assignment(it) => vec![&it.attributes],
+        Statement::Increment(it) => vec![&it.attributes],
+        Statement::Decrement(it) => vec![&it.attributes],
+        Statement::If(it) => {
+            let chained = it.else_if_clauses.iter().map(|clause| &clause.attributes);
+            std::iter::once(&it.attributes).chain(chained).chain(it.else_clause.iter().map(|c| &c.attributes)).collect()
+        }
+        Statement::Switch(it) => {
+            std::iter::once(&it.attributes).chain(it.clauses.iter().map(|clause| &clause.attributes)).collect()
+        }
+        Statement::Loop(it) => {
+            let breaks = it.continuing.iter().filter_map(|c| c.break_if.as_ref()).map(|b| &b.attributes);
+            std::iter::once(&it.attributes).chain(it.continuing.iter().map(|c| &c.attributes)).chain(breaks).collect()
+        }
+        Statement::For(it) => vec![&it.attributes],
+        Statement::While(it) => vec![&it.attributes],
+        Statement::Break(it) => vec![&it.attributes],
+        Statement::Continue(it) => vec![&it.attributes],
+        Statement::Return(it) => vec![&it.attributes],
+        Statement::Discard(it) => vec![&it.attributes],
+        Statement::FunctionCall(it) => vec![&it.attributes],
+        Statement::ConstAssert(it) => vec![&it.attributes],
+        Statement::Declaration(it) => vec![&it.attributes],
+    }
+}

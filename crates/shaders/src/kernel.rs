@@ -1,0 +1,72 @@
+//! The compute kernels of the library: where each stands, and what its entry point is called.
+
+/// A compute kernel of the library. Bindings and domain are in the doc of its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kernel {
+    /// Central differences.
+    HeightToNormal,
+    /// Forward differences, hardened.
+    HeightToNormalForward,
+    /// Forward differences, as published.
+    HeightToNormalForwardPublished,
+    /// One invocation a triangle, hardened.
+    FrameFromUvTriangles,
+    /// One invocation a triangle, as published.
+    FrameFromUvTrianglesPublished,
+    /// One invocation a vertex, hardened: gathers what [`Kernel::FrameFromUvTriangles`] wrote.
+    FrameFromUvVertices,
+    /// One invocation a vertex, as published: gathers what [`Kernel::FrameFromUvTrianglesPublished`] wrote.
+    FrameFromUvVerticesPublished,
+}
+
+impl Kernel {
+    /// Every kernel.
+    pub const ALL: [Kernel; 7] = [
+        Kernel::HeightToNormal,
+        Kernel::HeightToNormalForward,
+        Kernel::HeightToNormalForwardPublished,
+        Kernel::FrameFromUvTriangles,
+        Kernel::FrameFromUvTrianglesPublished,
+        Kernel::FrameFromUvVertices,
+        Kernel::FrameFromUvVerticesPublished,
+    ];
+
+    /// The entry point, which is also the assembled module's name.
+    #[must_use]
+    pub fn entry(self) -> &'static str {
+        match self {
+            Kernel::HeightToNormal => "bake_height_to_normal",
+            Kernel::HeightToNormalForward => "bake_height_to_normal_forward",
+            Kernel::HeightToNormalForwardPublished => "bake_height_to_normal_forward_published",
+            Kernel::FrameFromUvTriangles => "frame_from_uv_triangles",
+            Kernel::FrameFromUvTrianglesPublished => "frame_from_uv_triangles_published",
+            Kernel::FrameFromUvVertices => "frame_from_uv_vertices",
+            Kernel::FrameFromUvVerticesPublished => "frame_from_uv_vertices_published",
+        }
+    }
+
+    /// Invocations a workgroup, x, y, z.
+    #[must_use]
+    pub fn workgroup_size(self) -> [u32; 3] {
+        match self {
+            Kernel::HeightToNormal | Kernel::HeightToNormalForward | Kernel::HeightToNormalForwardPublished => [8, 8, 1],
+            Kernel::FrameFromUvTriangles
+            | Kernel::FrameFromUvTrianglesPublished
+            | Kernel::FrameFromUvVertices
+            | Kernel::FrameFromUvVerticesPublished => [64, 1, 1],
+        }
+    }
+
+    /// The file, below `shaders/`.
+    #[must_use]
+    pub fn file(self) -> &'static str {
+        match self {
+            Kernel::HeightToNormal | Kernel::HeightToNormalForward => "entry/height_to_normal.wesl",
+            Kernel::HeightToNormalForwardPublished => "entry/height_to_normal_forward.wesl",
+            Kernel::FrameFromUvTriangles
+            | Kernel::FrameFromUvTrianglesPublished
+            | Kernel::FrameFromUvVertices
+            | Kernel::FrameFromUvVerticesPublished => "entry/frame_from_uv.wesl",
+        }
+    }
+}
