@@ -69,7 +69,9 @@ mod tests {
     #[test]
     fn witness_a_flat_map_tilts() {
         let flat = decode_normal([128, 128, 255]);
-        let tilt = f64::from(flat.truncate().length()).atan2(f64::from(flat.z)).to_degrees();
+        let tilt = f64::from(flat.truncate().length())
+            .atan2(f64::from(flat.z))
+            .to_degrees();
         // Exact: atan(√2/255). f32 gives the components to 2⁻²³, which is 7e-6 degrees a component.
         let exact = (2f64.sqrt() / 255.0).atan().to_degrees();
         assert!((tilt - exact).abs() < 2e-5, "{tilt} against {exact}");

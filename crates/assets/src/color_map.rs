@@ -32,16 +32,30 @@ impl ColorMap {
         let mut source = image;
         if let Texels::Float32(values) = &image.texels {
             encoded = image.clone();
-            encoded.texels = Texels::Float32(values.iter().enumerate().map(|(i, &v)| encode_sample(image, i, v)).collect());
+            encoded.texels = Texels::Float32(
+                values
+                    .iter()
+                    .enumerate()
+                    .map(|(i, &v)| encode_sample(image, i, v))
+                    .collect(),
+            );
             source = &encoded;
         }
-        Ok(ColorMap { width: image.width, height: image.height, texels: source.to_rgba8() })
+        Ok(ColorMap {
+            width: image.width,
+            height: image.height,
+            texels: source.to_rgba8(),
+        })
     }
 
     /// A map of one texel.
     #[must_use]
     pub fn constant(rgba: [u8; 4]) -> Self {
-        ColorMap { width: 1, height: 1, texels: vec![rgba] }
+        ColorMap {
+            width: 1,
+            height: 1,
+            texels: vec![rgba],
+        }
     }
 
     /// All texels in linear light, alpha as it is.
@@ -56,7 +70,12 @@ impl ColorMap {
     /// When `x` or `y` lies outside; use [`crate::EdgeMode::resolve`] first.
     #[must_use]
     pub fn texel_linear(&self, x: u32, y: u32) -> [f32; 4] {
-        assert!(x < self.width && y < self.height, "texel ({x}, {y}) of {}x{}", self.width, self.height);
+        assert!(
+            x < self.width && y < self.height,
+            "texel ({x}, {y}) of {}x{}",
+            self.width,
+            self.height
+        );
         linear(self.texels[y as usize * self.width as usize + x as usize])
     }
 
@@ -90,25 +109,39 @@ fn encode_sample(image: &Image, i: usize, v: f32) -> f32 {
 #[must_use]
 pub fn linear_from_srgb_byte(byte: u8) -> f32 {
     static TABLE: OnceLock<[f32; 256]> = OnceLock::new();
-    TABLE.get_or_init(|| std::array::from_fn(|b| linear_from_srgb(b as f64 / 255.0) as f32))[usize::from(byte)]
+    TABLE.get_or_init(|| std::array::from_fn(|b| linear_from_srgb(b as f64 / 255.0) as f32))
+        [usize::from(byte)]
 }
 
 /// The light of an sRGB value in [0, 1], in f64.
 #[must_use]
 pub fn linear_from_srgb(c: f64) -> f64 {
-    if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+    if c <= 0.04045 {
+        c / 12.92
+    } else {
+        ((c + 0.055) / 1.055).powf(2.4)
+    }
 }
 
 /// The sRGB value of light in [0, 1]; computed in f64, rounded once.
 #[must_use]
 pub fn srgb_from_linear(light: f32) -> f32 {
     let c = f64::from(light);
-    let encoded = if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
+    let encoded = if c <= 0.003_130_8 {
+        12.92 * c
+    } else {
+        1.055 * c.powf(1.0 / 2.4) - 0.055
+    };
     encoded as f32
 }
 
 fn linear([r, g, b, a]: [u8; 4]) -> [f32; 4] {
-    [linear_from_srgb_byte(r), linear_from_srgb_byte(g), linear_from_srgb_byte(b), f32::from(a) / 255.0]
+    [
+        linear_from_srgb_byte(r),
+        linear_from_srgb_byte(g),
+        linear_from_srgb_byte(b),
+        f32::from(a) / 255.0,
+    ]
 }
 
 #[cfg(test)]
@@ -146,10 +179,25 @@ mod tests {
     fn float_colours_are_encoded_and_their_alpha_is_not() {
         let light = linear_from_srgb_byte(100);
         let texels = Texels::Float32(vec![light, light, 1.0, 0.5]);
-        let image = Image { width: 1, height: 1, channels: 4, texels, path: "sky.exr".into() };
-        assert_eq!(ColorMap::from_image(&image).unwrap().texels, [[100, 100, 255, 128]]);
-        let bright = Image { texels: Texels::Float32(vec![0.0, 0.0, 7.5, 1.0]), ..image };
+        let image = Image {
+            width: 1,
+            height: 1,
+            channels: 4,
+            texels,
+            path: "sky.exr".into(),
+        };
+        assert_eq!(
+            ColorMap::from_image(&image).unwrap().texels,
+            [[100, 100, 255, 128]]
+        );
+        let bright = Image {
+            texels: Texels::Float32(vec![0.0, 0.0, 7.5, 1.0]),
+            ..image
+        };
         let message = ColorMap::from_image(&bright).unwrap_err().to_string();
-        assert!(message.contains("sky.exr") && message.contains("(0, 0) channel 2 is 7.5"), "{message}");
+        assert!(
+            message.contains("sky.exr") && message.contains("(0, 0) channel 2 is 7.5"),
+            "{message}"
+        );
     }
 }

@@ -29,7 +29,11 @@ pub fn normal_png(map: &NormalMap) -> Result<Vec<u8>, Error> {
 pub fn height_png(field: &HeightField) -> Result<Vec<u8>, Error> {
     check_count("height map", field.width, field.height, field.texels.len())?;
     // The encoder takes native-endian samples.
-    let bytes: Vec<u8> = field.texels.iter().flat_map(|&h| ((h * 65535.0 + 0.5) as u16).to_ne_bytes()).collect();
+    let bytes: Vec<u8> = field
+        .texels
+        .iter()
+        .flat_map(|&h| ((h * 65535.0 + 0.5) as u16).to_ne_bytes())
+        .collect();
     png(field.width, field.height, &bytes, ExtendedColorType::L16)
 }
 
@@ -43,13 +47,24 @@ pub fn rgba8_png(width: u32, height: u32, texels: &[[u8; 4]]) -> Result<Vec<u8>,
         let rgb: Vec<u8> = texels.iter().flat_map(|t| [t[0], t[1], t[2]]).collect();
         return png(width, height, &rgb, ExtendedColorType::Rgb8);
     }
-    png(width, height, bytemuck::cast_slice(texels), ExtendedColorType::Rgba8)
+    png(
+        width,
+        height,
+        bytemuck::cast_slice(texels),
+        ExtendedColorType::Rgba8,
+    )
 }
 
 fn check_count(what: &'static str, width: u32, height: u32, found: usize) -> Result<(), Error> {
     let expected = width as usize * height as usize;
     if expected == 0 || expected != found {
-        return Err(Error::TexelCount { what, width, height, expected, found });
+        return Err(Error::TexelCount {
+            what,
+            width,
+            height,
+            expected,
+            found,
+        });
     }
     Ok(())
 }
@@ -58,6 +73,10 @@ fn png(width: u32, height: u32, samples: &[u8], color: ExtendedColorType) -> Res
     let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive)
         .write_image(samples, width, height, color)
-        .map_err(|source| Error::Encode { width, height, source })?;
+        .map_err(|source| Error::Encode {
+            width,
+            height,
+            source,
+        })?;
     Ok(bytes)
 }

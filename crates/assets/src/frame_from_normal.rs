@@ -30,7 +30,12 @@ mod tests {
         let (t, b) = hardened(n);
         let (n, t, b): (DVec3, DVec3, DVec3) = (n.as_dvec3(), t.as_dvec3(), b.as_dvec3());
         let lengths = [(t.length() - 1.0).abs(), (b.length() - 1.0).abs()];
-        let angles = [n.dot(t).abs(), n.dot(b).abs(), t.dot(b).abs(), (n.cross(t) - b).length()];
+        let angles = [
+            n.dot(t).abs(),
+            n.dot(b).abs(),
+            t.dot(b).abs(),
+            (n.cross(t) - b).length(),
+        ];
         lengths.into_iter().chain(angles).fold(0.0, f64::max)
     }
 
@@ -40,7 +45,16 @@ mod tests {
 
     #[test]
     fn the_poles_and_the_equator() {
-        for n in [Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z, Vec3::new(0.6, 0.8, 0.0), Vec3::new(0.6, 0.8, -0.0)] {
+        for n in [
+            Vec3::X,
+            -Vec3::X,
+            Vec3::Y,
+            -Vec3::Y,
+            Vec3::Z,
+            -Vec3::Z,
+            Vec3::new(0.6, 0.8, 0.0),
+            Vec3::new(0.6, 0.8, -0.0),
+        ] {
             assert!(worst_error(n) <= BOUND, "{n}: {}", worst_error(n));
         }
     }

@@ -65,7 +65,11 @@ pub fn published(mesh: &mut Mesh) -> Result<(), Error> {
     mesh.normals = sums.iter().map(|sum| sum.n.normalize()).collect();
     let tangent = |(sum, &n): (&Frame, &Vec3)| {
         let t = sum.t - n * n.dot(sum.t);
-        let w = if n.cross(sum.t).dot(sum.b) < 0.0 { -1.0 } else { 1.0 };
+        let w = if n.cross(sum.t).dot(sum.b) < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
         t.normalize().extend(w)
     };
     mesh.tangents = sums.iter().zip(&mesh.normals).map(tangent).collect();
@@ -79,9 +83,16 @@ pub fn published(mesh: &mut Mesh) -> Result<(), Error> {
 pub fn hardened(mesh: &mut Mesh) -> Result<(), Error> {
     let sums = gather(mesh, hardened_triangle)?;
     if mesh.normals.is_empty() {
-        mesh.normals = sums.iter().map(|sum| sum.n.try_normalize().unwrap_or(Vec3::Z)).collect();
+        mesh.normals = sums
+            .iter()
+            .map(|sum| sum.n.try_normalize().unwrap_or(Vec3::Z))
+            .collect();
     }
-    mesh.tangents = sums.iter().zip(&mesh.normals).map(|(sum, &n)| hardened_vertex(sum, n)).collect();
+    mesh.tangents = sums
+        .iter()
+        .zip(&mesh.normals)
+        .map(|(sum, &n)| hardened_vertex(sum, n))
+        .collect();
     Ok(())
 }
 
@@ -90,7 +101,12 @@ fn gather(mesh: &Mesh, frame: fn(&Edges) -> Frame) -> Result<Vec<Frame>, Error> 
     let mut sums = vec![Frame::default(); mesh.positions.len()];
     for [a, b, c] in mesh.triangles() {
         let (p, uv) = (&mesh.positions, &mesh.uvs);
-        let of_triangle = frame(&Edges { p: p[b] - p[a], q: p[c] - p[a], st1: uv[b] - uv[a], st2: uv[c] - uv[a] });
+        let of_triangle = frame(&Edges {
+            p: p[b] - p[a],
+            q: p[c] - p[a],
+            st1: uv[b] - uv[a],
+            st2: uv[c] - uv[a],
+        });
         [a, b, c].into_iter().for_each(|i| sums[i] += of_triangle);
     }
     Ok(sums)
@@ -111,7 +127,10 @@ fn hardened_triangle(e: &Edges) -> Frame {
     let area = n.length();
     let (ad, bc) = (e.st1.x * e.st2.y, e.st2.x * e.st1.y);
     let uv_area = ad - bc;
-    let no_direction = Frame { n, ..Frame::default() };
+    let no_direction = Frame {
+        n,
+        ..Frame::default()
+    };
     // Also false for NaN, which overflowing products of huge coordinates give.
     if !(uv_area.abs() > limits::UV_AREA * (ad.abs() + bc.abs())) || area == 0.0 {
         return no_direction;
@@ -120,7 +139,12 @@ fn hardened_triangle(e: &Edges) -> Frame {
     let t = (e.p * e.st2.y - e.q * e.st1.y) * sign;
     let b = (e.q * e.st1.x - e.p * e.st2.x) * sign;
     match (t.try_normalize(), b.try_normalize()) {
-        (Some(t), Some(b)) => Frame { n, t: t * area, b: b * area, weight: area },
+        (Some(t), Some(b)) => Frame {
+            n,
+            t: t * area,
+            b: b * area,
+            weight: area,
+        },
         _ => no_direction,
     }
 }
@@ -131,7 +155,9 @@ fn hardened_vertex(sum: &Frame, n: Vec3) -> glam::Vec4 {
     if !(t.length() > limits::CANCELLED * sum.weight) {
         return fallback(n);
     }
-    let Some(unit) = t.try_normalize() else { return fallback(n) };
+    let Some(unit) = t.try_normalize() else {
+        return fallback(n);
+    };
     let w = if n.cross(unit).dot(sum.b) < 0.0 { -1.0 } else { 1.0 };
     unit.extend(w)
 }

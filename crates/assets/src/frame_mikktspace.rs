@@ -26,7 +26,10 @@ pub fn generate(mesh: &mut Mesh) -> Result<(), Error> {
     if mesh.normals.is_empty() {
         mesh.smooth_normals();
     }
-    let mut corners = Corners { mesh, tangents: vec![None; mesh.indices.len()] };
+    let mut corners = Corners {
+        mesh,
+        tangents: vec![None; mesh.indices.len()],
+    };
     // The crate's error type has no values today; it is marked as open.
     if bevy_mikktspace::generate_tangents(&mut corners).is_err() {
         corners.tangents.fill(None);

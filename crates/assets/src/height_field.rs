@@ -26,13 +26,31 @@ impl HeightField {
     pub fn new(width: u32, height: u32, texels: Vec<f32>) -> Result<Self, Error> {
         let expected = width as usize * height as usize;
         if expected == 0 || texels.len() != expected {
-            return Err(Error::TexelCount { what: "height field", width, height, expected, found: texels.len() });
+            return Err(Error::TexelCount {
+                what: "height field",
+                width,
+                height,
+                expected,
+                found: texels.len(),
+            });
         }
-        let image = Image { width, height, channels: 1, texels: Texels::Float32(texels), path: "height field".into() };
+        let image = Image {
+            width,
+            height,
+            channels: 1,
+            texels: Texels::Float32(texels),
+            path: "height field".into(),
+        };
         crate::images::require_finite(&image)?;
         image.require_unit_range("height map")?;
-        let Texels::Float32(texels) = image.texels else { unreachable!("built as floats five lines above") };
-        Ok(HeightField { width, height, texels })
+        let Texels::Float32(texels) = image.texels else {
+            unreachable!("built as floats five lines above")
+        };
+        Ok(HeightField {
+            width,
+            height,
+            texels,
+        })
     }
 
     /// The field of a function of column and row. Values are clamped to [0, 1]; NaN becomes 0. A side of 0 becomes 1.
@@ -41,7 +59,11 @@ impl HeightField {
         let (width, height) = (width.max(1), height.max(1));
         let clamp = |h: f32| if h.is_nan() { 0.0 } else { h.clamp(0.0, 1.0) };
         let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        HeightField { width, height, texels: texels.map(|(x, y)| clamp(height_at(x, y))).collect() }
+        HeightField {
+            width,
+            height,
+            texels: texels.map(|(x, y)| clamp(height_at(x, y))).collect(),
+        }
     }
 
     /// One channel of an image as heights: bytes b become b/255, 16-bit values v become v/65535, floats must be in [0, 1].
@@ -51,7 +73,11 @@ impl HeightField {
     /// [`HeightField::from_image_rescaled`]).
     pub fn from_image(image: &Image, channel: Channel) -> Result<Self, Error> {
         image.require_unit_range("height map")?;
-        Ok(HeightField { width: image.width, height: image.height, texels: image.channel(channel)? })
+        Ok(HeightField {
+            width: image.width,
+            height: image.height,
+            texels: image.channel(channel)?,
+        })
     }
 
     /// One channel of an image, its lowest value becoming 0 and its highest 1; also answers those two. For float images in
@@ -60,11 +86,21 @@ impl HeightField {
     /// # Errors
     /// [`Error::MissingChannel`].
     pub fn from_image_rescaled(image: &Image, channel: Channel) -> Result<(Self, (f32, f32)), Error> {
-        let mut field = HeightField { width: image.width, height: image.height, texels: image.channel(channel)? };
+        let mut field = HeightField {
+            width: image.width,
+            height: image.height,
+            texels: image.channel(channel)?,
+        };
         let (low, high) = field.range();
         // In f64, so that high - low of huge floats does not overflow.
         let span = f64::from(high) - f64::from(low);
-        let rescale = |h: f32| if span > 0.0 { ((f64::from(h) - f64::from(low)) / span) as f32 } else { 0.0 };
+        let rescale = |h: f32| {
+            if span > 0.0 {
+                ((f64::from(h) - f64::from(low)) / span) as f32
+            } else {
+                0.0
+            }
+        };
         field.texels.iter_mut().for_each(|h| *h = rescale(*h));
         Ok((field, (low, high)))
     }
@@ -75,7 +111,12 @@ impl HeightField {
     /// When `x` or `y` lies outside; use [`crate::EdgeMode::resolve`] first.
     #[must_use]
     pub fn texel(&self, x: u32, y: u32) -> f32 {
-        assert!(x < self.width && y < self.height, "texel ({x}, {y}) of {}x{}", self.width, self.height);
+        assert!(
+            x < self.width && y < self.height,
+            "texel ({x}, {y}) of {}x{}",
+            self.width,
+            self.height
+        );
         self.texels[y as usize * self.width as usize + x as usize]
     }
 

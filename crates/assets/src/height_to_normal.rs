@@ -19,7 +19,7 @@
 
 use rayon::prelude::*;
 
-use crate::{EdgeMode, HeightField, Error, NormalCodec, NormalMap};
+use crate::{EdgeMode, Error, HeightField, NormalCodec, NormalMap};
 
 /// Steepest factor a bake accepts: its square times two stays far below the largest f32.
 pub const MAX_SLOPE: f32 = 1.0e9;
@@ -52,11 +52,28 @@ impl Bake {
     ///
     /// # Errors
     /// [`Error::Parameter`] when a scale is not finite or too steep.
-    pub fn central(field: &HeightField, height_scale: [f32; 2], edge: EdgeMode, codec: NormalCodec) -> Result<Self, Error> {
-        let slope = [(height_scale[0] * field.width as f32) * 0.5, (height_scale[1] * field.height as f32) * 0.5];
+    pub fn central(
+        field: &HeightField,
+        height_scale: [f32; 2],
+        edge: EdgeMode,
+        codec: NormalCodec,
+    ) -> Result<Self, Error> {
+        let slope = [
+            (height_scale[0] * field.width as f32) * 0.5,
+            (height_scale[1] * field.height as f32) * 0.5,
+        ];
         match slope.iter().find(|s| !s.is_finite() || s.abs() > MAX_SLOPE) {
-            Some(s) => Err(Error::Parameter { parameter: "height scale times side", value: s.to_string(), expected: "finite and at most 1e9" }),
-            None => Ok(Bake { kernel: Kernel::Central, edge, codec, slope }),
+            Some(s) => Err(Error::Parameter {
+                parameter: "height scale times side",
+                value: s.to_string(),
+                expected: "finite and at most 1e9",
+            }),
+            None => Ok(Bake {
+                kernel: Kernel::Central,
+                edge,
+                codec,
+                slope,
+            }),
         }
     }
 
@@ -76,14 +93,26 @@ pub fn bake(field: &HeightField, bake: &Bake) -> NormalMap {
     let width = field.width as usize;
     let mut texels = vec![[0; 4]; field.texels.len()];
     let row_at = |y: i64| &field.texels[bake.edge.resolve(y, field.height) as usize * width..][..width];
-    texels.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, out)| {
-        let y = y as i64;
-        let rows = Rows { above: row_at(y - 1), mid: row_at(y), below: row_at(y + 1) };
-        match bake.kernel {
-            Kernel::Central => central_row(out, &rows, bake),
-        }
-    });
-    NormalMap { width: field.width, height: field.height, codec: bake.codec, texels }
+    texels
+        .par_chunks_mut(width.max(1))
+        .enumerate()
+        .for_each(|(y, out)| {
+            let y = y as i64;
+            let rows = Rows {
+                above: row_at(y - 1),
+                mid: row_at(y),
+                below: row_at(y + 1),
+            };
+            match bake.kernel {
+                Kernel::Central => central_row(out, &rows, bake),
+            }
+        });
+    NormalMap {
+        width: field.width,
+        height: field.height,
+        codec: bake.codec,
+        texels,
+    }
 }
 
 /// The rows a 3x3 kernel sees.
@@ -94,7 +123,10 @@ struct Rows<'a> {
 }
 
 fn central_row(out: &mut [[u8; 4]], rows: &Rows<'_>, bake: &Bake) {
-    let encoder = Encoder { slope: bake.slope, byte: bake.byte_scale_offset() };
+    let encoder = Encoder {
+        slope: bake.slope,
+        byte: bake.byte_scale_offset(),
+    };
     let width = out.len();
     let border = |x: usize| {
         let column = |i: i64| rows.mid[bake.edge.resolve(i, width as u32) as usize];
@@ -105,7 +137,12 @@ fn central_row(out: &mut [[u8; 4]], rows: &Rows<'_>, bake: &Bake) {
     out[width - 1] = border(width - 1);
     if width > 2 {
         let inner = 1..width - 1;
-        encoder.interior(&mut out[inner.clone()], rows.mid, &rows.above[inner.clone()], &rows.below[inner]);
+        encoder.interior(
+            &mut out[inner.clone()],
+            rows.mid,
+            &rows.above[inner.clone()],
+            &rows.below[inner],
+        );
     }
 }
 

@@ -30,14 +30,27 @@ pub fn bake(field: &HeightField, texture_height_scale: f32) -> NormalMap {
     let heights = field.to_bytes();
     let (width, height) = (field.width as usize, field.height as usize);
     let mut texels = vec![[0; 4]; heights.len()];
-    texels.par_chunks_mut(width.max(1)).enumerate().for_each(|(i, row)| {
-        let mid = &heights[i * width..][..width];
-        row.iter_mut().zip(mid).for_each(|(out, &h)| *out = flat(h));
-        if i > 0 && i + 1 < height {
-            interior(row, mid, &heights[(i + 1) * width..][..width], texture_height_scale);
-        }
-    });
-    NormalMap { width: field.width, height: field.height, codec: NormalCodec::Biased, texels }
+    texels
+        .par_chunks_mut(width.max(1))
+        .enumerate()
+        .for_each(|(i, row)| {
+            let mid = &heights[i * width..][..width];
+            row.iter_mut().zip(mid).for_each(|(out, &h)| *out = flat(h));
+            if i > 0 && i + 1 < height {
+                interior(
+                    row,
+                    mid,
+                    &heights[(i + 1) * width..][..width],
+                    texture_height_scale,
+                );
+            }
+        });
+    NormalMap {
+        width: field.width,
+        height: field.height,
+        codec: NormalCodec::Biased,
+        texels,
+    }
 }
 
 /// The published normal of a texel **before** the border is overwritten: the only way to see the wrong neighbour.
@@ -46,11 +59,21 @@ pub fn bake(field: &HeightField, texture_height_scale: f32) -> NormalMap {
 /// When `x` or `y` lies outside.
 #[must_use]
 pub fn unmasked_normal(field: &HeightField, x: u32, y: u32, texture_height_scale: f32) -> Vec3 {
-    assert!(x < field.width && y < field.height, "texel ({x}, {y}) of {}x{}", field.width, field.height);
+    assert!(
+        x < field.width && y < field.height,
+        "texel ({x}, {y}) of {}x{}",
+        field.width,
+        field.height
+    );
     let width = field.width as usize;
     let index = y as usize * width + x as usize;
     let byte = |i: usize| crate::height_byte(field.texels[if i < field.texels.len() { i } else { 0 }]);
-    normal(byte(index), byte(index + width), byte(index + 1), texture_height_scale)
+    normal(
+        byte(index),
+        byte(index + width),
+        byte(index + 1),
+        texture_height_scale,
+    )
 }
 
 fn interior(row: &mut [[u8; 4]], mid: &[u8], below: &[u8], s: f32) {

@@ -128,7 +128,11 @@ impl Image {
     pub(crate) fn place(&self, i: usize) -> (u32, u32, u8) {
         let channels = usize::from(self.channels).max(1);
         let (texel, width) = (i / channels, (self.width as usize).max(1));
-        ((texel % width) as u32, (texel / width) as u32, (i % channels) as u8)
+        (
+            (texel % width) as u32,
+            (texel / width) as u32,
+            (i % channels) as u8,
+        )
     }
 
     /// One channel of every texel as floats, row by row. Integers become 0 to 1, floats stay as they are.
@@ -140,7 +144,11 @@ impl Image {
         let grey = stride <= 2;
         let at = match channel {
             Channel::Alpha if !self.has_alpha() => {
-                return Err(Error::MissingChannel { path: self.path.clone(), channel, channels: self.channels });
+                return Err(Error::MissingChannel {
+                    path: self.path.clone(),
+                    channel,
+                    channels: self.channels,
+                });
             }
             Channel::Alpha => stride - 1,
             Channel::Red => 0,
@@ -149,7 +157,9 @@ impl Image {
             Channel::Luminance if grey => 0,
             Channel::Luminance => return Ok(self.luminance(stride)),
         };
-        Ok((0..self.texel_count()).map(|i| self.texels.sample(i * stride + at)).collect())
+        Ok((0..self.texel_count())
+            .map(|i| self.texels.sample(i * stride + at))
+            .collect())
     }
 
     fn luminance(&self, stride: usize) -> Vec<f32> {
@@ -160,10 +170,21 @@ impl Image {
 
     /// The first sample outside 0 to 1, as the error that a `usage` makes of it.
     pub(crate) fn require_unit_range(&self, usage: &'static str) -> Result<(), Error> {
-        let Texels::Float32(values) = &self.texels else { return Ok(()) };
-        let Some(i) = values.iter().position(|v| !(0.0..=1.0).contains(v)) else { return Ok(()) };
+        let Texels::Float32(values) = &self.texels else {
+            return Ok(());
+        };
+        let Some(i) = values.iter().position(|v| !(0.0..=1.0).contains(v)) else {
+            return Ok(());
+        };
         let (x, y, channel) = self.place(i);
-        Err(Error::OutOfRange { path: self.path.clone(), x, y, channel, value: values[i], usage })
+        Err(Error::OutOfRange {
+            path: self.path.clone(),
+            x,
+            y,
+            channel,
+            value: values[i],
+            usage,
+        })
     }
 
     /// The image as 8-bit RGBA: grey is spread over red, green and blue, missing alpha is 255, 16 bits and floats are
@@ -205,7 +226,10 @@ pub fn load_image(path: &Path) -> Result<Image, Error> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Error> {
-    let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+    let bytes = std::fs::read(path).map_err(|source| Error::Read {
+        path: path.into(),
+        source,
+    })?;
     if bytes.is_empty() {
         return Err(Error::EmptyFile { path: path.into() });
     }
@@ -221,7 +245,11 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Image, Error> {
     if let Some((width, height)) = sides_in_header(format, bytes) {
         check_sides(path, width, height, 0)?;
     }
-    let failed = |source| Error::Decode { path: path.into(), format: format!("{format:?}").to_uppercase(), source };
+    let failed = |source| Error::Decode {
+        path: path.into(),
+        format: format!("{format:?}").to_uppercase(),
+        source,
+    };
     let mut reader = ImageReader::with_format(std::io::Cursor::new(bytes), format);
     reader.limits(limits());
     let decoder = reader.into_decoder().map_err(failed)?;
@@ -244,7 +272,11 @@ fn format_of(path: &Path, bytes: &[u8]) -> Option<ImageFormat> {
 /// decoder's complaint.
 fn sides_in_header(format: ImageFormat, bytes: &[u8]) -> Option<(u32, u32)> {
     let be32 = |at: usize| Some(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
-    let le16 = |at: usize| Some(u32::from(u16::from_le_bytes(bytes.get(at..at + 2)?.try_into().ok()?)));
+    let le16 = |at: usize| {
+        Some(u32::from(u16::from_le_bytes(
+            bytes.get(at..at + 2)?.try_into().ok()?,
+        )))
+    };
     let le32 = |at: usize| Some(i32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?).unsigned_abs());
     match format {
         ImageFormat::Png => Some((be32(16)?, be32(20)?)),
@@ -257,11 +289,20 @@ fn sides_in_header(format: ImageFormat, bytes: &[u8]) -> Option<(u32, u32)> {
 fn check_sides(path: &Path, width: u32, height: u32, bytes: u64) -> Result<(), Error> {
     let path = || path.to_path_buf();
     if width == 0 || height == 0 {
-        return Err(Error::ZeroSized { path: path(), width, height });
+        return Err(Error::ZeroSized {
+            path: path(),
+            width,
+            height,
+        });
     }
     if width > MAX_SIDE || height > MAX_SIDE || bytes > MAX_DECODED_BYTES {
         let bytes = bytes.max(u64::from(width) * u64::from(height));
-        return Err(Error::TooLarge { path: path(), width, height, bytes });
+        return Err(Error::TooLarge {
+            path: path(),
+            width,
+            height,
+            bytes,
+        });
     }
     Ok(())
 }
@@ -280,13 +321,23 @@ fn into_image(path: &Path, decoded: DynamicImage) -> Image {
     let color = decoded.color();
     let channels = color.channel_count();
     let texels = match color {
-        ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => Texels::Unorm8(decoded.into_bytes()),
-        ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => Texels::Unorm16(samples16(decoded)),
+        ColorType::L8 | ColorType::La8 | ColorType::Rgb8 | ColorType::Rgba8 => {
+            Texels::Unorm8(decoded.into_bytes())
+        }
+        ColorType::L16 | ColorType::La16 | ColorType::Rgb16 | ColorType::Rgba16 => {
+            Texels::Unorm16(samples16(decoded))
+        }
         _ if channels == 3 => Texels::Float32(decoded.into_rgb32f().into_raw()),
         _ => Texels::Float32(decoded.into_rgba32f().into_raw()),
     };
     let channels = u8::try_from(texels.len() / (width as usize * height as usize)).unwrap_or(channels);
-    Image { width, height, channels, texels, path: path.into() }
+    Image {
+        width,
+        height,
+        channels,
+        texels,
+        path: path.into(),
+    }
 }
 
 fn samples16(decoded: DynamicImage) -> Vec<u16> {
@@ -299,8 +350,18 @@ fn samples16(decoded: DynamicImage) -> Vec<u16> {
 }
 
 pub(crate) fn require_finite(image: &Image) -> Result<(), Error> {
-    let Texels::Float32(values) = &image.texels else { return Ok(()) };
-    let Some(i) = values.iter().position(|v| !v.is_finite()) else { return Ok(()) };
+    let Texels::Float32(values) = &image.texels else {
+        return Ok(());
+    };
+    let Some(i) = values.iter().position(|v| !v.is_finite()) else {
+        return Ok(());
+    };
     let (x, y, channel) = image.place(i);
-    Err(Error::NonFinite { path: image.path.clone(), x, y, channel, value: values[i] })
+    Err(Error::NonFinite {
+        path: image.path.clone(),
+        x,
+        y,
+        channel,
+        value: values[i],
+    })
 }

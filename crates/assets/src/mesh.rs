@@ -34,7 +34,9 @@ impl Mesh {
             return Err(MeshDefect::NoFaces);
         }
         if !self.indices.len().is_multiple_of(3) {
-            return Err(MeshDefect::PartialTriangle { count: self.indices.len() });
+            return Err(MeshDefect::PartialTriangle {
+                count: self.indices.len(),
+            });
         }
         self.validate_indices()?;
         if self.uvs.is_empty() {
@@ -47,17 +49,29 @@ impl Mesh {
     fn validate_indices(&self) -> Result<(), MeshDefect> {
         let vertices = self.positions.len();
         match self.indices.iter().position(|&i| i as usize >= vertices) {
-            Some(at) => Err(MeshDefect::IndexOutOfRange { triangle: at / 3, index: self.indices[at], vertices }),
+            Some(at) => Err(MeshDefect::IndexOutOfRange {
+                triangle: at / 3,
+                index: self.indices[at],
+                vertices,
+            }),
             None => Ok(()),
         }
     }
 
     fn validate_counts(&self) -> Result<(), MeshDefect> {
         let vertices = self.positions.len();
-        let lists = [("UVs", self.uvs.len(), false), ("normals", self.normals.len(), true), ("tangents", self.tangents.len(), true)];
+        let lists = [
+            ("UVs", self.uvs.len(), false),
+            ("normals", self.normals.len(), true),
+            ("tangents", self.tangents.len(), true),
+        ];
         for (attribute, count, optional) in lists {
             if count != vertices && !(optional && count == 0) {
-                return Err(MeshDefect::AttributeCount { attribute, count, vertices });
+                return Err(MeshDefect::AttributeCount {
+                    attribute,
+                    count,
+                    vertices,
+                });
             }
         }
         Ok(())
@@ -72,7 +86,9 @@ impl Mesh {
 
     /// The vertices of every triangle.
     pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
-        self.indices.chunks_exact(3).map(|t| [t[0] as usize, t[1] as usize, t[2] as usize])
+        self.indices
+            .chunks_exact(3)
+            .map(|t| [t[0] as usize, t[1] as usize, t[2] as usize])
     }
 
     /// Whether some triangle's texture coordinates run the other way round than its vertices, so that its frame is
@@ -96,7 +112,9 @@ impl Mesh {
     #[must_use]
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let mut points = self.positions.iter().copied();
-        let Some(first) = points.next() else { return (Vec3::ZERO, Vec3::ZERO) };
+        let Some(first) = points.next() else {
+            return (Vec3::ZERO, Vec3::ZERO);
+        };
         points.fold((first, first), |(low, high), p| (low.min(p), high.max(p)))
     }
 
@@ -108,16 +126,30 @@ impl Mesh {
         for [a, b, c] in self.triangles() {
             let [pa, pb, pc] = [a, b, c].map(|i| self.positions[i]);
             let area_normal = (pb - pa).cross(pc - pa);
-            [pa, pb, pc].into_iter().for_each(|p| *sums.entry(key(p)).or_default() += area_normal);
+            [pa, pb, pc]
+                .into_iter()
+                .for_each(|p| *sums.entry(key(p)).or_default() += area_normal);
         }
-        let normal = |p: &Vec3| sums.get(&key(*p)).and_then(|n| n.try_normalize()).unwrap_or(Vec3::Z);
+        let normal = |p: &Vec3| {
+            sums.get(&key(*p))
+                .and_then(|n| n.try_normalize())
+                .unwrap_or(Vec3::Z)
+        };
         self.normals = self.positions.iter().map(normal).collect();
     }
 }
 
-fn finite<T: std::fmt::Display>(attribute: &'static str, list: &[T], ok: impl Fn(&T) -> bool) -> Result<(), MeshDefect> {
+fn finite<T: std::fmt::Display>(
+    attribute: &'static str,
+    list: &[T],
+    ok: impl Fn(&T) -> bool,
+) -> Result<(), MeshDefect> {
     match list.iter().position(|v| !ok(v)) {
-        Some(vertex) => Err(MeshDefect::NonFinite { attribute, vertex, value: list[vertex].to_string() }),
+        Some(vertex) => Err(MeshDefect::NonFinite {
+            attribute,
+            vertex,
+            value: list[vertex].to_string(),
+        }),
         None => Ok(()),
     }
 }

@@ -58,8 +58,16 @@ pub fn chain(base: Level) -> Vec<Level> {
 #[must_use]
 pub fn height_chain(field: &HeightField) -> Vec<HeightField> {
     let texels = field.texels.iter().map(|&h| Vec4::splat(h)).collect();
-    let levels = chain(Level { width: field.width, height: field.height, texels });
-    let back = |l: Level| HeightField { width: l.width, height: l.height, texels: l.texels.iter().map(|t| t.x).collect() };
+    let levels = chain(Level {
+        width: field.width,
+        height: field.height,
+        texels,
+    });
+    let back = |l: Level| HeightField {
+        width: l.width,
+        height: l.height,
+        texels: l.texels.iter().map(|t| t.x).collect(),
+    };
     levels.into_iter().map(back).collect()
 }
 
@@ -69,9 +77,21 @@ pub fn color_chain(map: &ColorMap) -> Vec<ColorMap> {
     let weigh = |[r, g, b, a]: [f32; 4]| Vec4::new(r * a, g * a, b * a, a);
     // Where nothing is visible, the colour is still kept: filtering may reach it.
     let plain = map.to_linear();
-    let weighted = chain(Level { width: map.width, height: map.height, texels: plain.iter().copied().map(weigh).collect() });
-    let plain = chain(Level { width: map.width, height: map.height, texels: plain.into_iter().map(Vec4::from).collect() });
-    let mut levels: Vec<ColorMap> = weighted.iter().zip(&plain).map(|(w, p)| encode_colors(w, p)).collect();
+    let weighted = chain(Level {
+        width: map.width,
+        height: map.height,
+        texels: plain.iter().copied().map(weigh).collect(),
+    });
+    let plain = chain(Level {
+        width: map.width,
+        height: map.height,
+        texels: plain.into_iter().map(Vec4::from).collect(),
+    });
+    let mut levels: Vec<ColorMap> = weighted
+        .iter()
+        .zip(&plain)
+        .map(|(w, p)| encode_colors(w, p))
+        .collect();
     if let Some(base) = levels.first_mut() {
         base.texels.clone_from(&map.texels);
     }
@@ -85,8 +105,15 @@ pub fn normal_chain(map: &NormalMap, rule: NormalMips) -> Vec<NormalMap> {
         let [x, y, z] = [r, g, b].map(|byte| map.codec.decode(byte));
         Vec4::new(x, y, z, f32::from(a) / 255.0)
     };
-    let base = Level { width: map.width, height: map.height, texels: map.texels.iter().map(decode).collect() };
-    let mut levels: Vec<NormalMap> = chain(base).iter().map(|level| encode_normals(level, map, rule)).collect();
+    let base = Level {
+        width: map.width,
+        height: map.height,
+        texels: map.texels.iter().map(decode).collect(),
+    };
+    let mut levels: Vec<NormalMap> = chain(base)
+        .iter()
+        .map(|level| encode_normals(level, map, rule))
+        .collect();
     if let Some(base) = levels.first_mut() {
         base.texels.clone_from(&map.texels);
     }
@@ -96,12 +123,20 @@ pub fn normal_chain(map: &NormalMap, rule: NormalMips) -> Vec<NormalMap> {
 fn encode_colors(weighted: &Level, plain: &Level) -> ColorMap {
     let byte = |v: f32| (v * 255.0 + 0.5) as u8;
     let texel = |(w, p): (&Vec4, &Vec4)| {
-        let rgb = if w.w > 0.0 { w.truncate() / w.w } else { p.truncate() };
+        let rgb = if w.w > 0.0 {
+            w.truncate() / w.w
+        } else {
+            p.truncate()
+        };
         let [r, g, b] = rgb.to_array().map(|light| byte(srgb_from_linear(light)));
         [r, g, b, byte(p.w)]
     };
     let texels = weighted.texels.iter().zip(&plain.texels).map(texel).collect();
-    ColorMap { width: weighted.width, height: weighted.height, texels }
+    ColorMap {
+        width: weighted.width,
+        height: weighted.height,
+        texels,
+    }
 }
 
 fn encode_normals(level: &Level, map: &NormalMap, rule: NormalMips) -> NormalMap {
@@ -112,7 +147,12 @@ fn encode_normals(level: &Level, map: &NormalMap, rule: NormalMips) -> NormalMap
         let [r, g, b] = n.to_array().map(|c| map.codec.encode(c));
         [r, g, b, (t.w * 255.0 + 0.5) as u8]
     };
-    NormalMap { width: level.width, height: level.height, codec: map.codec, texels: level.texels.iter().map(texel).collect() }
+    NormalMap {
+        width: level.width,
+        height: level.height,
+        codec: map.codec,
+        texels: level.texels.iter().map(texel).collect(),
+    }
 }
 
 fn halve(level: &Level) -> Level {
@@ -121,9 +161,15 @@ fn halve(level: &Level) -> Level {
     let rows = footprints(level.height, height);
     let source_row = |y: usize| &level.texels[y * level.width as usize..][..level.width as usize];
     let texels = rows.iter().flat_map(|row| {
-        columns.iter().map(move |column| row.sum(|y| column.sum(|x| source_row(y)[x])))
+        columns
+            .iter()
+            .map(move |column| row.sum(|y| column.sum(|x| source_row(y)[x])))
     });
-    Level { width, height, texels: texels.collect() }
+    Level {
+        width,
+        height,
+        texels: texels.collect(),
+    }
 }
 
 /// The texels that one texel of the next level covers along one axis, with their shares, which sum to 1.
@@ -134,7 +180,11 @@ struct Footprint {
 
 impl Footprint {
     fn sum(&self, at: impl Fn(usize) -> Vec4) -> Vec4 {
-        self.shares.iter().enumerate().map(|(k, &share)| at(self.first + k) * share).sum()
+        self.shares
+            .iter()
+            .enumerate()
+            .map(|(k, &share)| at(self.first + k) * share)
+            .sum()
     }
 }
 
@@ -145,7 +195,10 @@ fn footprints(from: u32, to: u32) -> Vec<Footprint> {
         let (start, end) = (i * from64, (i + 1) * from64);
         let (first, last) = (start / to64, end.div_ceil(to64));
         let overlap = |k: u64| (end.min((k + 1) * to64) - start.max(k * to64)) as f32 / from64 as f32;
-        Footprint { first: first as usize, shares: (first..last).map(overlap).collect() }
+        Footprint {
+            first: first as usize,
+            shares: (first..last).map(overlap).collect(),
+        }
     };
     (0..to64).map(footprint).collect()
 }

@@ -81,17 +81,30 @@ impl NormalMap {
     /// [`Error::NotANormalMap`] for grey images; [`Error::OutOfRange`] for float images outside [0, 1].
     pub fn from_image(image: &Image, codec: NormalCodec) -> Result<Self, Error> {
         if image.channels < 3 {
-            return Err(Error::NotANormalMap { path: image.path.clone(), channels: image.channels });
+            return Err(Error::NotANormalMap {
+                path: image.path.clone(),
+                channels: image.channels,
+            });
         }
         image.require_unit_range("normal map")?;
-        Ok(NormalMap { width: image.width, height: image.height, codec, texels: image.to_rgba8() })
+        Ok(NormalMap {
+            width: image.width,
+            height: image.height,
+            codec,
+            texels: image.to_rgba8(),
+        })
     }
 
     /// A map of one normal everywhere.
     #[must_use]
     pub fn constant(width: u32, height: u32, codec: NormalCodec, normal: Vec3) -> Self {
         let [r, g, b] = normal.to_array().map(|n| codec.encode(n));
-        NormalMap { width, height, codec, texels: vec![[r, g, b, 255]; width as usize * height as usize] }
+        NormalMap {
+            width,
+            height,
+            codec,
+            texels: vec![[r, g, b, 255]; width as usize * height as usize],
+        }
     }
 
     /// The vector of a texel as decoded, not normalised.
@@ -100,7 +113,12 @@ impl NormalMap {
     /// When `x` or `y` lies outside; use [`crate::EdgeMode::resolve`] first.
     #[must_use]
     pub fn decode(&self, x: u32, y: u32) -> Vec3 {
-        assert!(x < self.width && y < self.height, "texel ({x}, {y}) of {}x{}", self.width, self.height);
+        assert!(
+            x < self.width && y < self.height,
+            "texel ({x}, {y}) of {}x{}",
+            self.width,
+            self.height
+        );
         let [r, g, b, _] = self.texels[y as usize * self.width as usize + x as usize];
         Vec3::from([r, g, b].map(|byte| self.codec.decode(byte)))
     }
@@ -115,7 +133,8 @@ impl NormalMap {
     /// Shortest and longest decoded vector: how far the map is from unit length. (0, 0) for a map without texels.
     #[must_use]
     pub fn length_range(&self) -> (f32, f32) {
-        let length = |t: &[u8; 4]| Vec3::from([t[0], t[1], t[2]].map(|byte| self.codec.decode(byte))).length();
+        let length =
+            |t: &[u8; 4]| Vec3::from([t[0], t[1], t[2]].map(|byte| self.codec.decode(byte))).length();
         let widen = |(low, high): (f32, f32), l: f32| (low.min(l), high.max(l));
         let (low, high) = self.texels.iter().map(length).fold((f32::INFINITY, 0.0), widen);
         if low.is_finite() { (low, high) } else { (0.0, 0.0) }

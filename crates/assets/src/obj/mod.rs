@@ -22,7 +22,10 @@ use crate::{Error, Mesh, MeshDefect};
 /// [`Error::Read`], [`Error::EmptyFile`], [`Error::ObjSyntax`] or [`Error::ObjMesh`], with path and, where one line is to
 /// blame, its number.
 pub fn load(path: &Path) -> Result<Mesh, Error> {
-    let bytes = std::fs::read(path).map_err(|source| Error::Read { path: path.into(), source })?;
+    let bytes = std::fs::read(path).map_err(|source| Error::Read {
+        path: path.into(),
+        source,
+    })?;
     if bytes.is_empty() {
         return Err(Error::EmptyFile { path: path.into() });
     }
@@ -34,7 +37,11 @@ pub fn load(path: &Path) -> Result<Mesh, Error> {
 /// # Errors
 /// As [`load`], but for reading.
 pub fn parse(path: &Path, bytes: &[u8]) -> Result<Mesh, Error> {
-    let defect = |(line, source)| Error::ObjMesh { path: path.into(), line, source };
+    let defect = |(line, source)| Error::ObjMesh {
+        path: path.into(),
+        line,
+        source,
+    };
     scan::check(bytes).map_err(|(line, source)| defect((Some(line), source)))?;
     let models = read_models(path, bytes)?;
     let mut mesh = Mesh::default();
@@ -49,12 +56,25 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<Mesh, Error> {
 }
 
 fn read_models(path: &Path, bytes: &[u8]) -> Result<Vec<tobj::Model>, Error> {
-    let options = tobj::LoadOptions { single_index: true, triangulate: true, ignore_points: true, ignore_lines: true };
-    let mut reader = CountLines { inner: Cursor::new(bytes), line: 0 };
+    let options = tobj::LoadOptions {
+        single_index: true,
+        triangulate: true,
+        ignore_points: true,
+        ignore_lines: true,
+    };
+    let mut reader = CountLines {
+        inner: Cursor::new(bytes),
+        line: 0,
+    };
     let no_materials = |_: &Path| Ok((Vec::new(), Default::default()));
     match tobj::load_obj_buf(&mut reader, &options, no_materials) {
         Ok((models, _)) => Ok(models),
-        Err(source) => Err(Error::ObjSyntax { path: path.into(), line: reader.line, what: expectation(source).into(), source }),
+        Err(source) => Err(Error::ObjSyntax {
+            path: path.into(),
+            line: reader.line,
+            what: expectation(source).into(),
+            source,
+        }),
     }
 }
 
@@ -92,9 +112,18 @@ fn append(mesh: &mut Mesh, part: &tobj::Mesh) -> Result<(), MeshDefect> {
         return Err(MeshDefect::PartialNormals);
     }
     let base = mesh.positions.len() as u32;
-    mesh.positions.extend(part.positions.chunks_exact(3).map(Vec3::from_slice));
-    mesh.uvs.extend(part.texcoords.chunks_exact(2).map(|t| Vec2::new(t[0], 1.0 - t[1])));
-    mesh.normals.extend(part.normals.chunks_exact(3).map(|n| Vec3::from_slice(n).normalize_or(Vec3::Z)));
+    mesh.positions
+        .extend(part.positions.chunks_exact(3).map(Vec3::from_slice));
+    mesh.uvs.extend(
+        part.texcoords
+            .chunks_exact(2)
+            .map(|t| Vec2::new(t[0], 1.0 - t[1])),
+    );
+    mesh.normals.extend(
+        part.normals
+            .chunks_exact(3)
+            .map(|n| Vec3::from_slice(n).normalize_or(Vec3::Z)),
+    );
     mesh.indices.extend(part.indices.iter().map(|i| base + i));
     Ok(())
 }

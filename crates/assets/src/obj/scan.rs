@@ -21,7 +21,9 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), Found> {
             finite(ATTRIBUTES[kind], so_far[kind], words).map_err(|d| (number, d))?;
             so_far[kind] += 1;
         } else if keyword == "f" {
-            words.try_for_each(|corner| in_range(corner, &so_far, &totals)).map_err(|d| (number, d))?;
+            words
+                .try_for_each(|corner| in_range(corner, &so_far, &totals))
+                .map_err(|d| (number, d))?;
         }
     }
     Ok(())
@@ -43,10 +45,18 @@ fn count(bytes: &[u8]) -> [usize; 3] {
     totals
 }
 
-fn finite<'a>(attribute: &'static str, vertex: usize, mut words: impl Iterator<Item = &'a str>) -> Result<(), MeshDefect> {
+fn finite<'a>(
+    attribute: &'static str,
+    vertex: usize,
+    mut words: impl Iterator<Item = &'a str>,
+) -> Result<(), MeshDefect> {
     let wrong = words.find(|w| w.parse::<f32>().is_ok_and(|v| !v.is_finite()));
     match wrong {
-        Some(value) => Err(MeshDefect::NonFinite { attribute, vertex, value: value.into() }),
+        Some(value) => Err(MeshDefect::NonFinite {
+            attribute,
+            vertex,
+            value: value.into(),
+        }),
         None => Ok(()),
     }
 }
@@ -57,7 +67,11 @@ fn in_range(corner: &str, so_far: &[usize; 3], totals: &[usize; 3]) -> Result<()
         let back = usize::try_from(index.unsigned_abs()).unwrap_or(usize::MAX);
         let count = if index < 0 { so_far[kind] } else { totals[kind] };
         if index == 0 || back > count {
-            return Err(MeshDefect::FaceOutOfRange { attribute: ATTRIBUTES[kind], index, count });
+            return Err(MeshDefect::FaceOutOfRange {
+                attribute: ATTRIBUTES[kind],
+                index,
+                count,
+            });
         }
     }
     Ok(())

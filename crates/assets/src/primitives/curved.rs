@@ -36,7 +36,8 @@ pub fn sphere(radius: f32, segments: u32, rings: u32) -> Mesh {
             mesh.quad([inner(j, i), inner(j, i + 1), inner(j + 1, i + 1), inner(j + 1, i)]);
         }
         let north = mesh.push(vertex(middle, 1.0));
-        mesh.indices.extend([inner(rings - 1, i), inner(rings - 1, i + 1), north]);
+        mesh.indices
+            .extend([inner(rings - 1, i), inner(rings - 1, i + 1), north]);
     }
     mesh
 }
@@ -49,10 +50,19 @@ pub fn torus(major: f32, minor: f32, segments: u32, sides: u32) -> Mesh {
     let mut mesh = Mesh::default();
     for j in 0..=sides {
         for i in 0..=segments {
-            let (u, v) = (f64::from(i) / f64::from(segments), f64::from(j) / f64::from(sides));
+            let (u, v) = (
+                f64::from(i) / f64::from(segments),
+                f64::from(j) / f64::from(sides),
+            );
             let (sin, cos) = turn(v);
             let out = outward(u);
-            mesh.push(surface(out * f64::from(major), minor, out * cos + DVec3::Y * sin, u, v));
+            mesh.push(surface(
+                out * f64::from(major),
+                minor,
+                out * cos + DVec3::Y * sin,
+                u,
+                v,
+            ));
         }
     }
     let at = |j: u32, i: u32| j * (segments + 1) + i;
@@ -66,7 +76,11 @@ pub fn torus(major: f32, minor: f32, segments: u32, sides: u32) -> Mesh {
 
 /// Sine and cosine of a share of a full turn, exactly the same at 0 and 1 so that seams close.
 fn turn(share: f64) -> (f64, f64) {
-    if share == 1.0 { (0.0, 1.0) } else { (share * TAU).sin_cos() }
+    if share == 1.0 {
+        (0.0, 1.0)
+    } else {
+        (share * TAU).sin_cos()
+    }
 }
 
 fn outward(u: f64) -> DVec3 {
