@@ -1,0 +1,5 @@
+//! The `bossage` binary: everything is in the library, so that tests and tools can use it too.
+
+fn main() -> std::process::ExitCode {
+    bossage_cli::run(std::env::args_os())
+}

@@ -1,0 +1,95 @@
+//! `bossage doctor`: what this machine can do, and how to make it do more.
+
+use bossage_runner::{AdapterInfo, HOW_TO_GET_AN_ADAPTER};
+use bossage_translate::external::{self, Validator};
+use serde::Serialize;
+
+use crate::Verdict;
+use crate::args::doctor::Doctor;
+use crate::console;
+use crate::error::Result;
+use crate::run::check;
+
+pub(crate) fn run(args: &Doctor) -> Result<Verdict> {
+    let adapters = bossage_runner::adapters();
+    let report = Report {
+        schema: 1,
+        version: env!("CARGO_PKG_VERSION"),
+        platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+        cores: std::thread::available_parallelism().map_or(1, usize::from),
+        how_to_get_an_adapter: adapters.is_empty().then_some(HOW_TO_GET_AN_ADAPTER),
+        adapters: adapters.iter().map(Adapter::from).collect(),
+        cache: check::cache_folder(None).map(|folder| folder.display().to_string()),
+        validators: external::detect(),
+    };
+    if args.json {
+        console::print_json(&report)?;
+    } else {
+        console::print(&report.text())?;
+    }
+    Ok(Verdict::Fine)
+}
+
+#[derive(Debug, Serialize)]
+struct Report {
+    schema: u32,
+    version: &'static str,
+    platform: String,
+    cores: usize,
+    adapters: Vec<Adapter>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    how_to_get_an_adapter: Option<&'static str>,
+    validators: Vec<Validator>,
+    cache: Option<String>,
+}
+
+/// An adapter as JSON has it.
+#[derive(Debug, Serialize)]
+pub(crate) struct Adapter {
+    pub(crate) name: String,
+    driver: String,
+    driver_info: String,
+    kind: &'static str,
+    backend: String,
+    llvm: Option<String>,
+    cpu: String,
+}
+
+impl From<&AdapterInfo> for Adapter {
+    fn from(info: &AdapterInfo) -> Self {
+        Self {
+            name: info.name.clone(),
+            driver: info.driver.clone(),
+            driver_info: info.driver_info.clone(),
+            kind: info.kind.name(),
+            backend: info.backend.clone(),
+            llvm: info.llvm.clone(),
+            cpu: info.cpu.clone(),
+        }
+    }
+}
+
+impl Report {
+    fn text(&self) -> String {
+        let mut text = format!("bossage {} on {}, {} cores\n\n", self.version, self.platform, self.cores);
+        text.push_str(&format!("{}\n", console::heading("Adapters (conform, render, bake --gpu, demo)")));
+        for adapter in &self.adapters {
+            text.push_str(&format!(
+                "{}  {} [{}, {}, {}]\n",
+                console::good("ENABLED "),
+                adapter.name,
+                adapter.backend,
+                adapter.kind,
+                adapter.driver_info
+            ));
+        }
+        if let Some(how) = self.how_to_get_an_adapter {
+            text.push_str(&format!("{}  no adapter: {how}\n", console::faint("DISABLED")));
+        }
+        text.push_str(&format!("\n{}\n", console::heading("External compilers (check, demo)")));
+        text.push_str(&check::banner(&self.validators));
+        let cache = self.cache.as_deref().unwrap_or("none: no home folder");
+        text.push_str(&format!("\nTheir verdicts are kept in: {cache}\n"));
+        text
+    }
+}

@@ -1,0 +1,10 @@
+//! One file a command: flags in, calls of the other crates, results out.
+
+pub(crate) mod bake;
+mod bake_gpu;
+pub(crate) mod check;
+pub(crate) mod completions;
+pub(crate) mod doctor;
+pub(crate) mod emit;
+pub(crate) mod plan;
+pub(crate) mod render;

@@ -1,0 +1,130 @@
+//! `bossage plan`: what a scene calls for, as a table or as JSON.
+
+use std::fmt::Write;
+
+use bossage_scene::{Effect, Fact, MaterialPlan, Plan, Predicted, State};
+use bossage_shaders::{Library, Stage};
+use bossage_translate::{EmitOptions, Shader, Source, manifest};
+
+use crate::Verdict;
+use crate::args::{Global, plan};
+use crate::console;
+use crate::error::{Error, Result};
+use crate::inputs;
+
+pub(crate) fn run(args: &plan::Plan, global: &Global) -> Result<Verdict> {
+    let (library, _) = inputs::library(global)?;
+    let scene = bossage_scene::load(&args.scene)?;
+    let mut plan = bossage_scene::plan(&scene);
+    add_costs(&mut plan, &library)?;
+    if args.json {
+        console::print_json(&plan)?;
+    } else {
+        console::print(&table(&plan))?;
+    }
+    Ok(Verdict::Fine)
+}
+
+/// Fills in what each permutation's fragment stage does: operations and texture fetches a pixel.
+pub(crate) fn add_costs(plan: &mut Plan, library: &Library) -> Result<()> {
+    for permutation in plan.permutations.clone() {
+        let assembled = library.assemble_surface(&permutation.features, Stage::Fragment)?;
+        let shader = Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl)).map_err(|d| Error::Shaders(vec![d]))?;
+        for entry in manifest(&shader, &EmitOptions::default(), &[]).entries {
+            plan.set_cost(&permutation.name, entry.cost.ops, entry.cost.samples + entry.cost.texture_loads);
+        }
+    }
+    Ok(())
+}
+
+/// The plan for people.
+pub(crate) fn table(plan: &Plan) -> String {
+    let mut text = format!("{}: at most {} px of error wanted\n", plan.scene.display(), plan.budget_px);
+    for material in &plan.materials {
+        text.push_str(&of_material(material));
+    }
+    let (count, materials) = (plan.permutations.len(), plan.materials.len());
+    let _ = writeln!(text, "\n{count} permutation(s) for {materials} material(s)");
+    text
+}
+
+fn of_material(material: &MaterialPlan) -> String {
+    let name = console::heading(format_args!("material {}", material.name));
+    let mut text = format!("\n{name}: technique {} ({})\n", material.technique, material.technique_by);
+    let _ = writeln!(text, "  permutation {}", material.permutation);
+    for effect in &material.effects {
+        text.push_str(&of_effect(effect));
+    }
+    let _ = writeln!(text, "  predicted: {}", predicted(&material.predicted));
+    text
+}
+
+fn of_effect(effect: &Effect) -> String {
+    let state = match effect.state {
+        State::Kept => console::good("kept   "),
+        State::Dropped => console::faint("dropped"),
+    };
+    let evidence: Vec<String> = effect.evidence.iter().map(|(name, value)| format!("{name} = {}", fact(value))).collect();
+    let mut text = format!("  {state}  {:15}  {}\n", effect.id.as_str(), effect.reason);
+    if !evidence.is_empty() {
+        let _ = writeln!(text, "{:28}{}", "", evidence.join(", "));
+    }
+    text
+}
+
+/// A fact in words; numbers with four significant digits.
+pub(crate) fn fact(fact: &Fact) -> String {
+    match fact {
+        Fact::Count(count) => count.to_string(),
+        Fact::Number(number) => short(*number),
+        Fact::Numbers(numbers) => numbers.iter().copied().map(short).collect::<Vec<_>>().join(" "),
+        Fact::Text(text) => text.clone(),
+        Fact::Names(names) => names.join(" "),
+    }
+}
+
+/// Four significant digits, without trailing zeros.
+pub(crate) fn short(number: f64) -> String {
+    let magnitude = number.abs();
+    if number == 0.0 || !number.is_finite() {
+        return number.to_string();
+    }
+    if !(1e-3..1e6).contains(&magnitude) {
+        return format!("{number:.3e}");
+    }
+    let decimals = (3 - magnitude.log10().floor() as i32).clamp(0, 6) as usize;
+    let text = format!("{number:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// The prediction in words; what is not known is left out.
+pub(crate) fn predicted(predicted: &Predicted) -> String {
+    let mut parts = Vec::new();
+    parts.extend(predicted.error_px_p99.map(|error| format!("{} px of error", short(error))));
+    parts.extend(predicted.error_texels_p99.map(|error| format!("{} texels (99 % of pixels)", short(error))));
+    parts.extend(predicted.ops.map(|ops| format!("{ops} operations")));
+    parts.extend(predicted.fetches.map(|fetches| format!("{fetches} fetches a pixel")));
+    if parts.is_empty() { "nothing of it is seen".to_owned() } else { parts.join(", ") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::short;
+
+    #[test]
+    fn numbers_are_short_and_keep_four_digits() {
+        let cases = [
+            (0.0, "0"),
+            (0.5, "0.5"),
+            (-0.012_345, "-0.01235"),
+            (123.456, "123.5"),
+            (99_999.0, "99999"),
+            (1e-9, "1.000e-9"),
+            (2.5e7, "2.500e7"),
+            (100.0, "100"),
+        ];
+        for (number, text) in cases {
+            assert_eq!(short(number), text);
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! `bossage render`: a scene as a PNG, or two techniques side by side with their difference.
+
+use bossage_runner::{AdapterSelector, Device};
+use bossage_scene::Scene;
+use bossage_shaders::Library;
+
+use crate::Verdict;
+use crate::args::Global;
+use crate::args::render::Render;
+use crate::console::{self, Console};
+use crate::error::Result;
+use crate::output::write_whole;
+use crate::picture::{Difference, Linear, difference};
+use crate::{drawing, inputs, technique};
+
+pub(crate) fn run(args: &Render, global: &Global, console: Console) -> Result<Verdict> {
+    let (library, _) = inputs::library(global)?;
+    let mut scene = bossage_scene::load(&args.scene)?;
+    if let Some(size) = args.size {
+        scene.camera.size = [size.width, size.height];
+    }
+    let variants = variants(&scene, args)?;
+    let selector = args.adapter.as_deref().map_or(AdapterSelector::Any, AdapterSelector::named);
+    let device = Device::open(&selector)?;
+    console.note(format_args!("{} on {}", args.scene.display(), device.info()));
+    let pictures = variants.iter().map(|scene| picture(&device, scene, &library)).collect::<Result<Vec<_>>>()?;
+    let picture = match pictures.as_slice() {
+        [a, b] => compared(a, b, console),
+        _ => Linear::beside(&pictures),
+    };
+    write_whole(&args.output, picture.png()?)?;
+    console::print(&format!("{}\n", args.output.display()))?;
+    Ok(Verdict::Fine)
+}
+
+/// The scenes to draw: as planned, with one technique, or with each of two.
+fn variants(scene: &Scene, args: &Render) -> Result<Vec<Scene>> {
+    let names: Vec<&String> = args.technique.iter().chain(args.compare.iter().flatten()).collect();
+    if names.is_empty() {
+        return Ok(vec![scene.clone()]);
+    }
+    names.into_iter().map(|name| technique::pinned(scene, name)).collect()
+}
+
+/// A scene, planned and drawn.
+pub(crate) fn picture(device: &Device, scene: &Scene, library: &Library) -> Result<Linear> {
+    drawing::draw(device, scene, &bossage_scene::plan(scene), library)
+}
+
+fn compared(a: &Linear, b: &Linear, console: Console) -> Linear {
+    let Difference { picture, amplification, max, mean } = difference(a, b);
+    console.note(format_args!(
+        "left, middle: the techniques; right: |difference| × {amplification:.4}; in linear light max {max:.6}, mean {mean:.6}"
+    ));
+    Linear::beside(&[a.clone(), b.clone(), picture])
+}
