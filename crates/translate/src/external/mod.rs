@@ -1,14 +1,49 @@
 //! Compilers of others that check what we emit.
 //!
 //! A tool is looked up once ([`detect`]), says its version, and is then run on emitted files ([`check`]). Results are kept
-//! in a directory, keyed by tool, version, arguments and content.
+//! in a directory, keyed by tool, version, arguments and content. A tool gets its input through a pipe, has
+//! [`TIME_LIMIT`] to answer, and may say [`OUTPUT_LIMIT`] bytes; the rest is dropped.
+//!
+//! One file a tool: a tool is a constant of [`Tool`]. To add one, write its file and list it in [`TOOLS`].
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::emit::Emitted;
+use crate::emit::{Emitted, EmittedFile};
 use crate::options::EmitOptions;
+use crate::target::{Stage, Target};
+
+mod cache;
+mod glslang;
+mod run;
+mod spirv_val;
+
+/// How long a tool may take for one file. Both tools answer within milliseconds; this ends a hang.
+pub const TIME_LIMIT: Duration = Duration::from_secs(20);
+
+/// How much of a tool's output is kept.
+pub const OUTPUT_LIMIT: usize = 16 * 1024;
+
+/// Every tool that we know how to run.
+const TOOLS: [&Tool; 2] = [&spirv_val::TOOL, &glslang::TOOL];
+
+/// What is known about a tool.
+struct Tool {
+    /// Its name, which is also that of its program.
+    name: &'static str,
+    /// How to get it.
+    how_to_get: &'static str,
+    /// The arguments that make it say its version.
+    version_arguments: &'static [&'static str],
+    /// Finds the version in what it said.
+    version: fn(&str) -> Option<String>,
+    /// The target it checks.
+    target: Target,
+    /// The arguments for a file of this stage, given through a pipe; or why it cannot check it.
+    arguments: fn(Stage, &EmitOptions) -> Result<Vec<String>, String>,
+}
 
 /// A tool and whether it can be used.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -60,14 +95,58 @@ pub enum CheckState {
     Skip,
 }
 
-/// Looks for every tool that we know how to run.
+/// Looks for every tool that we know how to run, on the `PATH`.
 #[must_use]
 pub fn detect() -> Vec<Validator> {
-    Vec::new()
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
+    detect_in(&folders)
 }
 
-/// Runs every enabled tool that knows the target on every file. `cache` is a directory that is made when it is missing;
-/// without one, nothing is kept.
+/// Looks for every tool in these folders only, the first hit wins.
+#[must_use]
+pub fn detect_in(folders: &[PathBuf]) -> Vec<Validator> {
+    TOOLS.iter().map(|tool| detect_tool(tool, folders)).collect()
+}
+
+fn detect_tool(tool: &Tool, folders: &[PathBuf]) -> Validator {
+    let program = format!("{}{}", tool.name, std::env::consts::EXE_SUFFIX);
+    let found = folders
+        .iter()
+        .map(|folder| folder.join(&program))
+        .find(|path| path.is_file());
+    let Some(path) = found else {
+        return disabled(tool, None, format!("`{program}` was not found; {}", tool.how_to_get));
+    };
+    let arguments: Vec<String> = tool.version_arguments.iter().map(|&a| a.to_owned()).collect();
+    let said = match run::run(&path, &arguments, &[], TIME_LIMIT, OUTPUT_LIMIT) {
+        Ok(outcome) => outcome.output,
+        Err(problem) => return disabled(tool, Some(path), problem),
+    };
+    match (tool.version)(&said) {
+        Some(version) => Validator {
+            tool: tool.name.to_owned(),
+            version: Some(version),
+            path: Some(path),
+            state: State::Enabled,
+            reason: None,
+        },
+        None => disabled(tool, Some(path), format!("`{program}` does not say its version")),
+    }
+}
+
+fn disabled(tool: &Tool, path: Option<PathBuf>, reason: String) -> Validator {
+    Validator {
+        tool: tool.name.to_owned(),
+        version: None,
+        path,
+        state: State::Disabled,
+        reason: Some(reason),
+    }
+}
+
+/// Runs every given tool that knows the target on every file. `cache` is a directory that is made when it is missing;
+/// without one, nothing is kept. A cache that cannot be written is no error: results are then not kept.
 #[must_use]
 pub fn check(
     emitted: &Emitted,
@@ -75,6 +154,66 @@ pub fn check(
     validators: &[Validator],
     cache: Option<&Path>,
 ) -> Vec<Check> {
-    let _ = (emitted, options, validators, cache);
-    Vec::new()
+    let fitting = TOOLS.iter().filter(|tool| tool.target == emitted.target);
+    fitting
+        .flat_map(|tool| {
+            let validator = validators.iter().find(|v| v.tool == tool.name);
+            emitted
+                .files
+                .iter()
+                .map(move |file| check_file(tool, validator, file, options, cache))
+        })
+        .collect()
+}
+
+fn check_file(
+    tool: &Tool,
+    validator: Option<&Validator>,
+    file: &EmittedFile,
+    options: &EmitOptions,
+    cache: Option<&Path>,
+) -> Check {
+    let (state, message) = verdict(tool, validator, file, options, cache);
+    Check {
+        tool: tool.name.to_owned(),
+        file: file.file_name.clone(),
+        state,
+        message,
+    }
+}
+
+fn verdict(
+    tool: &Tool,
+    validator: Option<&Validator>,
+    file: &EmittedFile,
+    options: &EmitOptions,
+    cache: Option<&Path>,
+) -> (CheckState, String) {
+    let skip = |reason: String| (CheckState::Skip, reason);
+    let Some(validator) = validator else {
+        return skip("the tool was not looked for".to_owned());
+    };
+    let (Some(path), Some(version)) = (&validator.path, &validator.version) else {
+        return skip(validator.reason.clone().unwrap_or_default());
+    };
+    let arguments = match (tool.arguments)(file.stage, options) {
+        Ok(arguments) => arguments,
+        Err(reason) => return skip(reason),
+    };
+    let content = file.contents.bytes();
+    let key = cache::key(tool.name, version, &arguments, content);
+    if let Some(known) = cache.and_then(|dir| cache::read(dir, &key)) {
+        return known;
+    }
+    match run::run(path, &arguments, content, TIME_LIMIT, OUTPUT_LIMIT) {
+        Ok(outcome) => {
+            let state = if outcome.success { CheckState::Pass } else { CheckState::Fail };
+            let message = outcome.output.trim().to_owned();
+            if let (Some(dir), false) = (cache, outcome.crashed) {
+                cache::write(dir, &key, state, &message);
+            }
+            (state, message)
+        }
+        Err(problem) => (CheckState::Fail, problem),
+    }
 }

@@ -18,6 +18,7 @@ mod build;
 mod interface;
 mod layout;
 
+pub(crate) use build::hex;
 pub use build::manifest;
 
 /// The version of the format that this code writes.

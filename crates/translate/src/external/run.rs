@@ -1,0 +1,153 @@
+//! Runs a program with a limit on its time and on what it may say.
+
+use std::io::{Read, Write};
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// How a program ended.
+#[derive(Debug)]
+pub(super) struct Outcome {
+    /// Whether it ended with exit code 0.
+    pub(super) success: bool,
+    /// Whether it was ended by a signal instead of by itself.
+    pub(super) crashed: bool,
+    /// The beginning of what it wrote to standard output, then to standard error.
+    pub(super) output: String,
+}
+
+/// Runs a program on an input.
+///
+/// `Err` says why there is no outcome: it could not be started, or took too long and was ended.
+pub(super) fn run(
+    program: &Path,
+    arguments: &[String],
+    input: &[u8],
+    time_limit: Duration,
+    output_limit: usize,
+) -> Result<Outcome, String> {
+    let mut child = Command::new(program)
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .map_err(|error| format!("`{}` could not be started: {error}", program.display()))?;
+    let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
+    thread::scope(|scope| {
+        scope.spawn(move || {
+            // A program that does not read its input closes the pipe; its verdict counts all the same.
+            stdin.map(|mut pipe| pipe.write_all(input))
+        });
+        let out = scope.spawn(move || stdout.map_or_else(String::new, |pipe| keep(pipe, output_limit)));
+        let err = scope.spawn(move || stderr.map_or_else(String::new, |pipe| keep(pipe, output_limit)));
+        let status = wait(&mut child, time_limit);
+        let mut output = out.join().unwrap_or_default();
+        output.push_str(&err.join().unwrap_or_default());
+        let status = status.map_err(|why| format!("`{}` {why}", program.display()))?;
+        Ok(outcome(status, output))
+    })
+}
+
+fn outcome(status: ExitStatus, mut output: String) -> Outcome {
+    let crashed = status.code().is_none();
+    if crashed {
+        output.push_str(&format!("\nended by a signal ({status})"));
+    }
+    Outcome {
+        success: status.success(),
+        crashed,
+        output,
+    }
+}
+
+/// Reads to the end, so that the program never waits for us, but keeps only the beginning.
+fn keep(mut pipe: impl Read, limit: usize) -> String {
+    let mut kept = Vec::new();
+    let mut chunk = [0; 4096];
+    let mut dropped = 0;
+    while let Ok(count @ 1..) = pipe.read(&mut chunk) {
+        let room = limit.saturating_sub(kept.len()).min(count);
+        kept.extend_from_slice(&chunk[..room]);
+        dropped += count - room;
+    }
+    let mut text = String::from_utf8_lossy(&kept).into_owned();
+    if dropped > 0 {
+        text.push_str(&format!("\n… {dropped} more bytes"));
+    }
+    text
+}
+
+/// Waits for the end, ever more patiently, and ends the program when its time is over.
+fn wait(child: &mut Child, time_limit: Duration) -> Result<ExitStatus, String> {
+    let start = Instant::now();
+    let mut pause = Duration::from_micros(200);
+    loop {
+        match child.try_wait() {
+            Ok(Some(status)) => return Ok(status),
+            Ok(None) if start.elapsed() < time_limit => thread::sleep(pause),
+            Ok(None) => {
+                // Either fails only if the program has just ended, which is as good.
+                let _ = child.kill();
+                let _ = child.wait();
+                return Err(format!("took longer than {} s and was ended", time_limit.as_secs_f32()));
+            }
+            Err(error) => return Err(format!("could not be waited for: {error}")),
+        }
+        pause = (pause * 2).min(Duration::from_millis(10));
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    fn shell(script: &str, input: &[u8], limit: Duration) -> Result<Outcome, String> {
+        let arguments = ["-c".to_owned(), script.to_owned()];
+        run(Path::new("/bin/sh"), &arguments, input, limit, 1000)
+    }
+
+    const LONG: Duration = Duration::from_secs(30);
+
+    #[test]
+    fn input_goes_in_and_both_outputs_come_out() {
+        let outcome = shell("cat; echo err >&2; exit 3", b"in ", LONG).unwrap();
+        assert_eq!(outcome.output, "in err\n");
+        assert!(!outcome.success && !outcome.crashed);
+    }
+
+    #[test]
+    fn a_hang_is_ended() {
+        let start = Instant::now();
+        let problem = shell("exec sleep 60", b"", Duration::from_millis(50)).unwrap_err();
+        assert!(problem.contains("took longer than 0.05 s"), "{problem}");
+        assert!(start.elapsed() < LONG);
+    }
+
+    #[test]
+    fn megabytes_of_output_are_cut() {
+        let outcome = shell("yes | head -c 3000000", b"", LONG).unwrap();
+        assert!(outcome.success);
+        assert!(outcome.output.len() < 1100);
+        assert!(outcome.output.ends_with("2999000 more bytes"));
+    }
+
+    #[test]
+    fn a_large_input_that_nobody_reads_does_not_block() {
+        let input = vec![b'x'; 4_000_000];
+        assert!(shell("exit 0", &input, LONG).unwrap().success);
+    }
+
+    #[test]
+    fn a_signal_is_a_crash() {
+        let outcome = shell("kill -SEGV $$", b"", LONG).unwrap();
+        assert!(outcome.crashed && !outcome.success);
+    }
+
+    #[test]
+    fn a_missing_program_is_said() {
+        let problem = run(Path::new("/nowhere/tool"), &[], b"", LONG, 10).unwrap_err();
+        assert!(problem.contains("could not be started"));
+    }
+}
