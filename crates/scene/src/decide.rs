@@ -4,6 +4,7 @@
 //! permutation, and what is kept is.
 
 use bossage_shaders::{Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Transform};
+use glam::DVec3;
 
 use crate::facts::{MaterialFacts, has_mirrored_uv};
 use crate::model::{AlphaMode, Light, LightKind, Material, Object, Scene, TechniquePin};
@@ -258,23 +259,35 @@ impl Subject<'_> {
         }
     }
 
+    /// Without the cofactor matrix the shader carries directions by the object's matrix and does not normalise them there. A
+    /// lone normal may come out at any length; a tangent frame keeps its proportions only at unit length, and its
+    /// handedness only without a reflection.
     fn cofactor_matrix(&self, features: &FeatureSet) -> Decision {
         let stretched = self.names(|object| !object.transform.keeps_angles());
+        let scaled = self.names(|object| object.transform.scale.abs() != DVec3::ONE);
         let mirrored = self.names(|object| object.transform.mirrors());
-        let needed = !stretched.is_empty() || (features.has_tangent() && !mirrored.is_empty());
-        let facts = evidence([("stretched", Fact::Names(stretched.clone())), ("mirrored", Fact::Names(mirrored.clone()))]);
+        let facts = evidence([
+            ("scale_differs_by_axis", Fact::Names(stretched.clone())),
+            ("scale_not_1", Fact::Names(scaled.clone())),
+            ("mirrored", Fact::Names(mirrored.clone())),
+            ("tangent_frame", Fact::Text(features.has_tangent().to_string())),
+        ]);
         if !features.has_normal() {
             Decision::dropped("no normal is used", facts)
         } else if features.space == LightingSpace::Object {
             Decision::dropped("light and eye are brought to object space: normals stay where they are", facts)
         } else if features.form == Form::Published {
             Decision::dropped("the published formula carries normals by the object's own matrix", facts)
-        } else if !needed {
-            Decision::dropped("every transform is a rotation, a translation and one scale for all axes", facts)
-        } else if stretched.is_empty() {
-            Decision::kept(format!("mirrored, with a tangent frame: {}", mirrored.join(", ")), facts)
-        } else {
+        } else if !stretched.is_empty() {
             Decision::kept(format!("scale differs by axis: {}", stretched.join(", ")), facts)
+        } else if features.has_tangent() && !mirrored.is_empty() {
+            Decision::kept(format!("mirrored, with a tangent frame: {}", mirrored.join(", ")), facts)
+        } else if features.has_tangent() && !scaled.is_empty() {
+            Decision::kept(format!("scaled, with a tangent frame that needs unit vectors: {}", scaled.join(", ")), facts)
+        } else if scaled.is_empty() {
+            Decision::dropped("every transform is rigid", facts)
+        } else {
+            Decision::dropped("one scale for all axes leaves the direction of a normal as it is", facts)
         }
     }
 

@@ -9,11 +9,11 @@ use std::sync::Arc;
 
 use bossage_assets::{EdgeMode, Mesh};
 use bossage_shaders::{Albedo, FeatureSet};
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec3, DVec4};
 
 use crate::camera::Matrices;
 use crate::facts::MaterialFacts;
-use crate::model::{AlphaMode, Light, Material, Object, Scene, TechniquePin};
+use crate::model::{AlphaMode, Elevation, Light, Material, Object, Scene, TechniquePin};
 use crate::plan::Plan;
 use crate::schema::MAX_LIGHTS;
 use crate::textures::Texture;
@@ -137,9 +137,8 @@ fn light_uniforms(matrices: &Matrices, lights: &[&Light], features: &FeatureSet)
 fn material_uniforms(scene: &Scene, prepared: &Prepared<'_>, features: &FeatureSet) -> BTreeMap<String, Vec<f32>> {
     let material = prepared.material;
     let albedo = match features.albedo {
-        // A constant map is folded into the colour; a map that varies and is left out by choice leaves its constant alone.
-        Albedo::Constant if prepared.facts.albedo.constant_rgb => prepared.facts.albedo.first,
-        Albedo::Constant | Albedo::Map => material.albedo.color,
+        Albedo::Constant => folded(prepared),
+        Albedo::Map => material.albedo.color,
     };
     let cutoff = match material.alpha {
         AlphaMode::Opaque => 0.0,
@@ -157,16 +156,24 @@ fn material_uniforms(scene: &Scene, prepared: &Prepared<'_>, features: &FeatureS
     ])
 }
 
-/// Scale and bias along u, then along v. Zero where there is no relief, and where heights are constant: such a surface is the
+/// The constant colour that stands for colour and map: what is constant in the map is folded in; what varies there and is
+/// left out, because it cannot be seen, leaves its constant alone.
+fn folded(prepared: &Prepared<'_>) -> DVec4 {
+    let (color, facts) = (prepared.material.albedo.color, &prepared.facts.albedo);
+    let rgb = if facts.constant_rgb { facts.first.truncate() } else { color.truncate() };
+    rgb.extend(if facts.constant_alpha { facts.first.w } else { color.w })
+}
+
+/// Scale and bias along u, then the factor by which both differ along v (tiles that are not square). Zero where there is no relief, and where heights are constant: such a surface is the
 /// polygon itself (see the schema), unless the scene pins a technique.
 fn relief(prepared: &Prepared<'_>) -> Vec<f32> {
     let is_plane = prepared.facts.height.is_none_or(|height| height.is_constant()) && prepared.material.technique == TechniquePin::Auto;
     match &prepared.material.height {
         Some(height) if !is_plane => {
-            let (scale, bias) = (height.elevation.scale, height.elevation.bias);
-            [scale.x, bias.x, scale.y, bias.y].map(|x| x as f32).to_vec()
+            let Elevation { scale, bias } = height.elevation;
+            [scale.x, bias.x, scale.y / scale.x, 0.0].map(|x| x as f32).to_vec()
         }
-        Some(_) | None => vec![0.0; 4],
+        Some(_) | None => vec![0.0, 0.0, 1.0, 0.0],
     }
 }
 

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use bossage_assets::height_to_normal::{self, Bake};
 use bossage_assets::{Channel, ColorMap, EdgeMode, HeightField, NormalCodec, NormalMap};
 use bossage_shaders::{Form, LightingSpace};
 use glam::{DVec2, DVec4};
@@ -46,12 +47,17 @@ pub(crate) fn material(table: &Table<'_>, files: &Files) -> Option<Material> {
     let name = table.need("name", "`name`, unique among materials").and_then(|v| v.name());
     let white = AlbedoSource { color: schema::ALBEDO_COLOR, map: None };
     let albedo = table.or("albedo", white, |v| albedo(v, files));
-    let normal = table.or("normal", None, |v| normal(v, files).map(Some));
+    let address = table.or("address", EdgeMode::Wrap, |v| v.word(&ADDRESS));
     let height = table.or("height", None, |v| height(v, files).map(Some));
+    let heights = Heights {
+        field: table.path_of("height"),
+        given: table.get("height").is_some(),
+        read: height.as_ref().and_then(Option::as_ref).zip(address),
+    };
+    let normal = table.or("normal", None, |v| normal(v, files, &heights).map(Some));
     let specular = table.or("specular", schema::SPECULAR, |v| v.vec3(NOT_NEGATIVE));
     let shininess = table.or("shininess", schema::SHININESS, |v| v.number(SHININESS));
     let alpha = table.or("alpha", AlphaMode::Opaque, alpha);
-    let address = table.or("address", EdgeMode::Wrap, |v| v.word(&ADDRESS));
     let technique = table.or("technique", TechniquePin::Auto, |v| v.word(&TECHNIQUE));
     let form = table.or("form", Form::Hardened, |v| v.word(&FORM));
     let lighting_space = table.or("lighting_space", LightingSpace::World, |v| v.word(&SPACE));
@@ -124,15 +130,46 @@ fn asset<T>(value: &Value<'_>, made: Result<T, bossage_assets::Error>, hint: &st
     made.map_err(|error| value.note(chain(&error), hint)).ok()
 }
 
-fn normal(value: &Value<'_>, files: &Files) -> Option<NormalSource> {
+/// The material's heights, for baking normals from them.
+struct Heights<'a> {
+    field: String,
+    given: bool,
+    read: Option<(&'a HeightSource, EdgeMode)>,
+}
+
+/// A map from a file, or baked from the material's heights, which then must be there.
+fn normal(value: &Value<'_>, files: &Files, heights: &Heights<'_>) -> Option<NormalSource> {
     let table = value.table()?;
-    let codec = table.need("codec", "`codec`: `unorm` or `biased`, as the map was written").and_then(|v| v.word(&CODEC));
-    let map = table.need("map", "`map`, the normal map's file");
-    let image = map.as_ref().and_then(|v| files.image(v));
+    let codec = table.need("codec", "`codec`: `unorm` or `biased`, as the map is written").and_then(|v| v.word(&CODEC));
+    let bake = table.get("bake");
+    let made = match &bake {
+        Some(bake) => {
+            refuse(&table, "map", "`map` does not go with `bake`", "give a `map`, or `bake` one from the heights");
+            baked(bake, codec, heights)
+        }
+        None => table.need("map", "`map`, the normal map's file, or `bake = \"central\"`").and_then(|v| normal_map(&v, codec, files)),
+    };
     table.finish();
-    let (path, image) = image?;
-    let made = asset(&map?, NormalMap::from_image(&image, codec?), "use an image with red, green and blue")?;
-    Some(NormalSource { path, map: Arc::new(made) })
+    made
+}
+
+fn normal_map(value: &Value<'_>, codec: Option<NormalCodec>, files: &Files) -> Option<NormalSource> {
+    let (path, image) = files.image(value)?;
+    let map = asset(value, NormalMap::from_image(&image, codec?), "use an image with red, green and blue")?;
+    Some(NormalSource { path, map: Arc::new(map) })
+}
+
+fn baked(value: &Value<'_>, codec: Option<NormalCodec>, heights: &Heights<'_>) -> Option<NormalSource> {
+    value.word(&[("central", ())])?;
+    if !heights.given {
+        let field = &heights.field;
+        value.note(format!("there are no heights to bake from: `{field}` is missing"), format!("add `{field}`"));
+        return None;
+    }
+    let (height, edge) = heights.read?;
+    let scale = height.elevation.scale.as_vec2().to_array();
+    let bake = asset(value, Bake::central(&height.field, scale, edge, codec?), "make the relief less steep")?;
+    Some(NormalSource { path: height.path.clone(), map: Arc::new(height_to_normal::bake(&height.field, &bake)) })
 }
 
 fn height(value: &Value<'_>, files: &Files) -> Option<HeightSource> {

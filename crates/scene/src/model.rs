@@ -152,7 +152,7 @@ pub struct AlbedoSource {
 /// A normal map with its codec.
 #[derive(Clone, Debug)]
 pub struct NormalSource {
-    /// The file.
+    /// The file: of the map, or of the heights it was baked from.
     pub path: PathBuf,
     /// The texels, with the codec.
     pub map: Arc<NormalMap>,

@@ -26,7 +26,8 @@
 //! | `materials.name` | unique | required |
 //! | `materials.albedo.color` | 3 or 4 numbers in \[0, 1\], multiplies the map | `[1, 1, 1, 1]` |
 //! | `materials.albedo.map` | image | none |
-//! | `materials.normal.map` | image with at least 3 channels | required in `normal` |
+//! | `materials.normal.map` | image with at least 3 channels | required, or the next |
+//! | `materials.normal.bake` | `central`: from `height`, with its elevation and `address` | required, or the last |
 //! | `materials.normal.codec` | `unorm`, `biased` | required in `normal` |
 //! | `materials.height.map` | image | required in `height` |
 //! | `materials.height.channel` | `red`, `green`, `blue`, `alpha`, `luminance` | `red` |
