@@ -9,7 +9,7 @@
 //!
 //! Hardened form: triangles whose UV area cannot be told from zero, or without area, are skipped; N is weighted by area, T
 //! and B are unit vectors weighted by area; normals that the mesh already has are kept; where no direction is left (all
-//! skipped, cancelled, or parallel to N) the tangent is that of [`frame_from_normal`](crate::frame_from_normal), w = +1.
+//! skipped, cancelled, or parallel to N) the tangent is that of [`frame_from_normal`], w = +1.
 //! Vertices are not split: for charts mirrored into each other use [`frame_mikktspace`](crate::frame_mikktspace).
 //!
 //! Sums run over triangles in their order in the mesh, so that a gather by vertex (triangles ascending) in a compute kernel
@@ -17,6 +17,7 @@
 
 use glam::{Vec2, Vec3};
 
+use crate::scaled::{direction, length};
 use crate::{Error, Mesh, frame_from_normal};
 
 /// Where UV area, or what is left of a tangent, cannot be told from rounding noise.
@@ -85,7 +86,7 @@ pub fn hardened(mesh: &mut Mesh) -> Result<(), Error> {
     if mesh.normals.is_empty() {
         mesh.normals = sums
             .iter()
-            .map(|sum| sum.n.try_normalize().unwrap_or(Vec3::Z))
+            .map(|sum| direction(sum.n).unwrap_or(Vec3::Z))
             .collect();
     }
     mesh.tangents = sums
@@ -124,21 +125,22 @@ fn published_triangle(e: &Edges) -> Frame {
 
 fn hardened_triangle(e: &Edges) -> Frame {
     let n = e.p.cross(e.q);
-    let area = n.length();
+    let area = length(n);
     let (ad, bc) = (e.st1.x * e.st2.y, e.st2.x * e.st1.y);
     let uv_area = ad - bc;
     let no_direction = Frame {
         n,
         ..Frame::default()
     };
-    // Also false for NaN, which overflowing products of huge coordinates give.
-    if !(uv_area.abs() > limits::UV_AREA * (ad.abs() + bc.abs())) || area == 0.0 {
+    // NaN, which overflowing products of huge coordinates give, is not known either.
+    let sign_is_known = uv_area.abs() > limits::UV_AREA * (ad.abs() + bc.abs());
+    if !sign_is_known || area == 0.0 {
         return no_direction;
     }
     let sign = uv_area.signum();
     let t = (e.p * e.st2.y - e.q * e.st1.y) * sign;
     let b = (e.q * e.st1.x - e.p * e.st2.x) * sign;
-    match (t.try_normalize(), b.try_normalize()) {
+    match (direction(t), direction(b)) {
         (Some(t), Some(b)) => Frame {
             n,
             t: t * area,
@@ -151,11 +153,8 @@ fn hardened_triangle(e: &Edges) -> Frame {
 
 fn hardened_vertex(sum: &Frame, n: Vec3) -> glam::Vec4 {
     let t = sum.t - n * n.dot(sum.t);
-    // Also false for NaN.
-    if !(t.length() > limits::CANCELLED * sum.weight) {
-        return fallback(n);
-    }
-    let Some(unit) = t.try_normalize() else {
+    let left = length(t) > limits::CANCELLED * sum.weight;
+    let Some(unit) = direction(t).filter(|_| left) else {
         return fallback(n);
     };
     let w = if n.cross(unit).dot(sum.b) < 0.0 { -1.0 } else { 1.0 };

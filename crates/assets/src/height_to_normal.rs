@@ -19,6 +19,7 @@
 
 use rayon::prelude::*;
 
+use crate::truncate::to_byte_range;
 use crate::{EdgeMode, Error, HeightField, NormalCodec, NormalMap};
 
 /// Steepest factor a bake accepts: its square times two stays far below the largest f32.
@@ -88,10 +89,40 @@ impl Bake {
 }
 
 /// Bakes a normal map, rows in parallel. The result does not depend on the number of threads.
+///
+/// # Panics
+/// When the field's list does not fit its sides, which its constructors rule out.
 #[must_use]
 pub fn bake(field: &HeightField, bake: &Bake) -> NormalMap {
-    let width = field.width as usize;
     let mut texels = vec![[0; 4]; field.texels.len()];
+    bake_into(field, bake, &mut texels).expect("as many texels as heights");
+    NormalMap {
+        width: field.width,
+        height: field.height,
+        codec: bake.codec,
+        texels,
+    }
+}
+
+/// As [`bake()`], into texels that are there already: a large map that is baked again and again costs no fresh memory.
+///
+/// # Errors
+/// [`Error::TexelCount`] when `texels`, or the field's own list, does not fit the field's sides.
+pub fn bake_into(field: &HeightField, bake: &Bake, texels: &mut [[u8; 4]]) -> Result<(), Error> {
+    let width = field.width as usize;
+    let expected = width * field.height as usize;
+    for found in [field.texels.len(), texels.len()] {
+        if found != expected {
+            let (width, height) = (field.width, field.height);
+            return Err(Error::TexelCount {
+                what: "normal map",
+                width,
+                height,
+                expected,
+                found,
+            });
+        }
+    }
     let row_at = |y: i64| &field.texels[bake.edge.resolve(y, field.height) as usize * width..][..width];
     texels
         .par_chunks_mut(width.max(1))
@@ -107,12 +138,7 @@ pub fn bake(field: &HeightField, bake: &Bake) -> NormalMap {
                 Kernel::Central => central_row(out, &rows, bake),
             }
         });
-    NormalMap {
-        width: field.width,
-        height: field.height,
-        codec: bake.codec,
-        texels,
-    }
+    Ok(())
 }
 
 /// The rows a 3x3 kernel sees.
@@ -170,10 +196,10 @@ impl Encoder {
         let gy = dy * self.slope[1];
         let q = (gx * gx + gy * gy) + 1.0;
         let r = 1.0 / q.sqrt();
-        let red = ((-gx * r) * k + o) as i32;
-        let green = ((-gy * r) * k + o) as i32;
-        let blue = (r * k + o) as i32;
-        let alpha = (h * 255.0 + 0.5) as i32;
+        let red = to_byte_range((-gx * r) * k + o);
+        let green = to_byte_range((-gy * r) * k + o);
+        let blue = to_byte_range(r * k + o);
+        let alpha = to_byte_range(h * 255.0 + 0.5);
         (red | green << 8 | blue << 16 | alpha << 24).to_le_bytes()
     }
 }

@@ -22,7 +22,8 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use crate::{HeightField, NormalCodec, NormalMap, codec_biased};
+use crate::truncate::to_byte_range;
+use crate::{HeightField, NormalCodec, NormalMap};
 
 /// Bakes as published. `texture_height_scale` is s: texels of elevation per step of the height byte.
 #[must_use]
@@ -97,10 +98,11 @@ fn normal(h1: u8, h2: u8, h3: u8, s: f32) -> Vec3 {
     Vec3::new(-a * r, -b * r, r)
 }
 
+/// [`encode_published`](crate::codec_biased::encode_published) for components in [−1, 1], three at once.
 #[inline(always)]
 fn encode(n: Vec3, height: u8) -> [u8; 4] {
-    let [red, green, blue] = n.to_array().map(codec_biased::encode_published);
-    [red, green, blue, height]
+    let [red, green, blue] = n.to_array().map(|c| to_byte_range(127.0 * c + 128.0));
+    (red | green << 8 | blue << 16 | u32::from(height) << 24).to_le_bytes()
 }
 
 fn flat(height: u8) -> [u8; 4] {

@@ -39,6 +39,8 @@ pub mod mips;
 mod normal_map;
 pub mod obj;
 pub mod primitives;
+mod scaled;
+mod truncate;
 
 pub use color_map::{ColorMap, linear_from_srgb, linear_from_srgb_byte, srgb_from_linear};
 pub use edge_mode::EdgeMode;

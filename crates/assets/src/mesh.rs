@@ -132,7 +132,7 @@ impl Mesh {
         }
         let normal = |p: &Vec3| {
             sums.get(&key(*p))
-                .and_then(|n| n.try_normalize())
+                .and_then(|&n| crate::scaled::direction(n))
                 .unwrap_or(Vec3::Z)
         };
         self.normals = self.positions.iter().map(normal).collect();

@@ -17,7 +17,10 @@ fn central(field: &HeightField, scale: f32, edge: EdgeMode, codec: NormalCodec) 
 /// One texel straight from the formula, in f64, for any position: no rows, no interior, no order of operations.
 fn truth(field: &HeightField, x: u32, y: u32, scale: f64, edge: EdgeMode) -> DVec3 {
     let h = |dx: i64, dy: i64| {
-        let (cx, cy) = (edge.resolve(i64::from(x) + dx, field.width), edge.resolve(i64::from(y) + dy, field.height));
+        let (cx, cy) = (
+            edge.resolve(i64::from(x) + dx, field.width),
+            edge.resolve(i64::from(y) + dy, field.height),
+        );
         f64::from(field.texel(cx, cy))
     };
     let gx = (h(1, 0) - h(-1, 0)) * scale * f64::from(field.width) / 2.0;
@@ -111,14 +114,20 @@ fn a_flat_field_bakes_to_straight_normals() {
         let unorm = central(&flat, 0.3, edge, NormalCodec::Unorm);
         assert!(unorm.texels.iter().all(|t| *t == [128, 128, 255, 128]));
     }
-    assert!(forward::bake(&flat, 0.3).texels.iter().all(|t| *t == [128, 128, 255, 128]));
+    assert!(
+        forward::bake(&flat, 0.3)
+            .texels
+            .iter()
+            .all(|t| *t == [128, 128, 255, 128])
+    );
 }
 
 #[test]
 fn red_is_the_slope_along_columns_and_green_along_rows() {
     let along_u = HeightField::from_fn(8, 8, |x, _| x as f32 / 8.0);
     let along_v = HeightField::from_fn(8, 8, |_, y| y as f32 / 8.0);
-    let [a, b] = [&along_u, &along_v].map(|f| central(f, 1.0, EdgeMode::Clamp, NormalCodec::Biased).decode(4, 4));
+    let [a, b] =
+        [&along_u, &along_v].map(|f| central(f, 1.0, EdgeMode::Clamp, NormalCodec::Biased).decode(4, 4));
     assert!(a.x < -0.6 && a.y == 0.0, "{a}");
     assert!(b.y < -0.6 && b.x == 0.0, "{b}");
 }
@@ -127,7 +136,10 @@ fn red_is_the_slope_along_columns_and_green_along_rows() {
 fn witness_the_published_bake_swaps_the_axes() {
     let along_u = HeightField::from_fn(8, 8, |x, _| x as f32 / 8.0);
     let n = forward::bake(&along_u, 0.05).decode(4, 4);
-    assert!(n.x == 0.0 && n.y < -0.5, "a slope along columns must show in green, as published: {n}");
+    assert!(
+        n.x == 0.0 && n.y < -0.5,
+        "a slope along columns must show in green, as published: {n}"
+    );
 }
 
 #[test]
@@ -135,17 +147,41 @@ fn witness_the_last_column_looks_into_the_next_row() {
     // One bright texel: the first of row 3. The last texel of row 2 is flat all round, but sees it.
     let field = HeightField::from_fn(6, 6, |x, y| f32::from(x == 0 && y == 3));
     assert!(forward::unmasked_normal(&field, 5, 2, 0.01).y < -0.9);
-    assert_eq!(forward::unmasked_normal(&field, 5, 1, 0.01), Vec3::Z, "the control: one row up");
+    assert_eq!(
+        forward::unmasked_normal(&field, 5, 1, 0.01),
+        Vec3::Z,
+        "the control: one row up"
+    );
     // And past the end there is texel 0.
     let corner = HeightField::from_fn(6, 6, |x, y| f32::from(x == 0 && y == 0));
-    assert!(forward::unmasked_normal(&corner, 3, 5, 0.01).x < -0.9, "below the last row");
-    assert!(forward::unmasked_normal(&corner, 5, 5, 0.01).y < -0.9, "right of the last texel");
+    assert!(
+        forward::unmasked_normal(&corner, 3, 5, 0.01).x < -0.9,
+        "below the last row"
+    );
+    // Both neighbours of the very last texel: a = b = 2.55, so each component is −2.55/√(1 + 2·2.55²) = −0.68.
+    let last = forward::unmasked_normal(&corner, 5, 5, 0.01);
+    assert!(
+        last.x == last.y && last.y < -0.67,
+        "right of and below the last texel: {last}"
+    );
     // The hardened bake sees the true neighbours, whatever the edge mode.
     for edge in EDGES {
-        assert_eq!(central(&field, 1.0, edge, NormalCodec::Biased).decode(5, 2), if edge == EdgeMode::Wrap { Vec3::Z } else { Vec3::Z });
+        assert_eq!(
+            central(&field, 1.0, edge, NormalCodec::Biased).decode(5, 1),
+            Vec3::Z
+        );
     }
-    assert!(central(&field, 1.0, EdgeMode::Wrap, NormalCodec::Biased).decode(5, 3).x < -0.9, "wrap: its own row's first texel");
-    assert_eq!(central(&field, 1.0, EdgeMode::Clamp, NormalCodec::Biased).decode(5, 3), Vec3::Z);
+    assert!(
+        central(&field, 1.0, EdgeMode::Wrap, NormalCodec::Biased)
+            .decode(5, 3)
+            .x
+            < -0.9,
+        "wrap: its own row's first texel"
+    );
+    assert_eq!(
+        central(&field, 1.0, EdgeMode::Clamp, NormalCodec::Biased).decode(5, 3),
+        Vec3::Z
+    );
 }
 
 #[test]
@@ -159,7 +195,11 @@ fn witness_the_published_border_is_flat_and_the_hardened_one_is_not() {
             assert_ne!(hardened.decode(x, y), Vec3::Z);
         }
     }
-    assert_ne!(published.decode(3, 3), Vec3::Z, "the control: inside there is a slope");
+    assert_ne!(
+        published.decode(3, 3),
+        Vec3::Z,
+        "the control: inside there is a slope"
+    );
 }
 
 #[test]
@@ -169,7 +209,9 @@ fn witness_forward_is_of_first_order_and_central_of_second() {
         let h = |i: f64| 0.25 * (1.0 + (std::f64::consts::TAU * i / f64::from(n)).sin());
         let slope = |i: f64| 0.25 * std::f64::consts::TAU * (std::f64::consts::TAU * i / f64::from(n)).cos();
         let estimate = |i: f64| (h(i + 1.0) - h(i - offset)) / (1.0 + offset) * f64::from(n);
-        (0..n).map(|i| (estimate(f64::from(i)) - slope(f64::from(i))).abs()).fold(0.0, f64::max)
+        (0..n)
+            .map(|i| (estimate(f64::from(i)) - slope(f64::from(i))).abs())
+            .fold(0.0, f64::max)
     };
     // Taylor: forward π/n·h'', so halving the step halves the error; central (2π/n)²/6·h', so it quarters it. The next terms
     // are smaller by (2π/n)²/10 < 0.02 at n ≥ 16.
@@ -178,13 +220,18 @@ fn witness_forward_is_of_first_order_and_central_of_second() {
         assert!((error(n, 1.0) / error(2 * n, 1.0) - 4.0).abs() < 0.1);
     }
     // And that is what the two bakes compute: compare on 64 samples, in whole steps of the code.
-    let field = HeightField::from_fn(64, 3, |x, _| 0.25 * (1.0 + (std::f32::consts::TAU * x as f32 / 64.0).sin()));
+    let field = HeightField::from_fn(64, 3, |x, _| {
+        0.25 * (1.0 + (std::f32::consts::TAU * x as f32 / 64.0).sin())
+    });
     let map = central(&field, 0.2, EdgeMode::Wrap, NormalCodec::Biased);
     for x in 0..64 {
         let exact = 0.2 * 0.25 * std::f64::consts::TAU * (std::f64::consts::TAU * f64::from(x) / 64.0).cos();
         let decoded = map.decode(x, 1).as_dvec3();
         // Central differences: relative (2π/64)²/6 = 0.0016 of 0.314; the code: half a step, doubled by the quotient.
-        assert!((-decoded.x / decoded.z - exact).abs() <= 0.0016 * 0.315 + 2.0 * bound(NormalCodec::Biased), "{x}");
+        assert!(
+            (-decoded.x / decoded.z - exact).abs() <= 0.0016 * 0.315 + 2.0 * bound(NormalCodec::Biased),
+            "{x}"
+        );
     }
 }
 
@@ -193,13 +240,20 @@ fn the_smallest_fields_bake() {
     for (w, h) in [(1, 1), (1, 5), (5, 1), (2, 2), (3, 3)] {
         let field = HeightField::from_fn(w, h, |x, y| ((x + 2 * y) % 3) as f32 / 2.0);
         for edge in EDGES {
-            assert_eq!(central(&field, 0.1, edge, NormalCodec::Unorm).texels.len(), (w * h) as usize);
+            assert_eq!(
+                central(&field, 0.1, edge, NormalCodec::Unorm).texels.len(),
+                (w * h) as usize
+            );
         }
         assert_eq!(forward::bake(&field, 0.1).texels.len(), (w * h) as usize);
     }
     // One texel is its own neighbour in every mode.
     let one = HeightField::from_fn(1, 1, |_, _| 1.0);
-    assert!(EDGES.iter().all(|&e| central(&one, 9.0, e, NormalCodec::Biased).decode(0, 0) == Vec3::Z));
+    assert!(
+        EDGES
+            .iter()
+            .all(|&e| central(&one, 9.0, e, NormalCodec::Biased).decode(0, 0) == Vec3::Z)
+    );
 }
 
 #[test]
@@ -209,7 +263,10 @@ fn the_steepest_slope_stays_a_normal_and_steeper_is_refused() {
     assert_eq!(map.decode(1, 1), Vec3::new(-1.0, 0.0, 0.0));
     for scale in [f32::NAN, f32::INFINITY, -MAX_SLOPE, MAX_SLOPE] {
         let refused = Bake::central(&field, [scale, 0.1], EdgeMode::Wrap, NormalCodec::Unorm);
-        assert!(refused.unwrap_err().to_string().contains("height scale"), "{scale}");
+        assert!(
+            refused.unwrap_err().to_string().contains("height scale"),
+            "{scale}"
+        );
     }
 }
 
@@ -217,7 +274,26 @@ fn the_steepest_slope_stays_a_normal_and_steeper_is_refused() {
 fn the_result_does_not_depend_on_threads() {
     let field = HeightField::from_fn(257, 131, |x, y| ((x * 7919 + y * 104_729) % 1009) as f32 / 1008.0);
     let bake = || central(&field, 0.03, EdgeMode::Mirror, NormalCodec::Unorm);
-    let single = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(bake);
-    let several = rayon::ThreadPoolBuilder::new().num_threads(5).build().unwrap().install(bake);
+    let single = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap()
+        .install(bake);
+    let several = rayon::ThreadPoolBuilder::new()
+        .num_threads(5)
+        .build()
+        .unwrap()
+        .install(bake);
     assert_eq!(single, several);
+}
+
+#[test]
+fn baking_into_the_wrong_number_of_texels_is_refused() {
+    let field = HeightField::from_fn(4, 3, |x, _| x as f32 / 4.0);
+    let bake = Bake::central(&field, [0.1; 2], EdgeMode::Wrap, NormalCodec::Unorm).unwrap();
+    let mut texels = vec![[9; 4]; 12];
+    assert!(height_to_normal::bake_into(&field, &bake, &mut texels[..11]).is_err());
+    assert_eq!(texels, vec![[9; 4]; 12], "untouched");
+    height_to_normal::bake_into(&field, &bake, &mut texels).unwrap();
+    assert_eq!(texels, height_to_normal::bake(&field, &bake).texels);
 }

@@ -24,7 +24,10 @@ fn two_triangles(uvs: [[f32; 2]; 4]) -> Mesh {
 fn assert_frame(n: Vec3, t: Vec4, magnified: f64) {
     let (n, tangent): (DVec3, DVec3) = (n.as_dvec3(), t.truncate().as_dvec3());
     assert!((tangent.length() - 1.0).abs() <= 2f64.powi(-22), "{t}");
-    assert!(n.dot(tangent).abs() <= 6.0 * 2f64.powi(-24) * magnified + 2f64.powi(-22), "{n} {t}");
+    assert!(
+        n.dot(tangent).abs() <= 6.0 * 2f64.powi(-24) * magnified + 2f64.powi(-22),
+        "{n} {t}"
+    );
     assert!(t.w == 1.0 || t.w == -1.0, "{t}");
 }
 
@@ -43,7 +46,10 @@ fn published_and_hardened_find_the_frames_of_plane_and_cube() {
 
 #[test]
 fn hardened_frames_of_curved_bodies_are_near_the_exact_ones() {
-    for mesh in [primitives::sphere(1.0, 96, 48), primitives::torus(2.0, 0.5, 96, 48)] {
+    for mesh in [
+        primitives::sphere(1.0, 96, 48),
+        primitives::torus(2.0, 0.5, 96, 48),
+    ] {
         let mut made = bare(mesh.clone());
         frame_from_uv::hardened(&mut made).unwrap();
         assert_eq!(made.normals, mesh.normals, "given normals are kept");
@@ -52,7 +58,10 @@ fn hardened_frames_of_curved_bodies_are_near_the_exact_ones() {
             // A vertex averages triangles on the same side of a seam at worst: half a segment's turn, π/96, and rows of
             // pole triangles, whose T is that of the middle of their base.
             let angle = t.truncate().dot(exact.truncate()).clamp(-1.0, 1.0).acos();
-            assert!(angle <= std::f32::consts::PI / 96.0 + 1e-3 && t.w == 1.0, "vertex {i}: {angle}");
+            assert!(
+                angle <= std::f32::consts::PI / 96.0 + 1e-3 && t.w == 1.0,
+                "vertex {i}: {angle}"
+            );
         }
     }
 }
@@ -114,7 +123,10 @@ fn witness_mirrored_neighbours_cancel() {
     frame_mikktspace::generate(&mut mikk).unwrap();
     assert_eq!(mikk.positions.len(), 6);
     let corner = |i: usize| mikk.tangents[mikk.indices[i] as usize];
-    assert_eq!([corner(0), corner(3)], [Vec4::new(1.0, 0.0, 0.0, 1.0), Vec4::new(-1.0, 0.0, 0.0, -1.0)]);
+    assert_eq!(
+        [corner(0), corner(3)],
+        [Vec4::new(1.0, 0.0, 0.0, 1.0), Vec4::new(-1.0, 0.0, 0.0, -1.0)]
+    );
 }
 
 #[test]
@@ -151,7 +163,11 @@ fn invalid_meshes_are_refused_and_left_alone() {
     let mut mesh = primitives::cube(1.0);
     mesh.indices[0] = 99;
     let before = mesh.clone();
-    for generate in [frame_from_uv::published, frame_from_uv::hardened, frame_mikktspace::generate] {
+    for generate in [
+        frame_from_uv::published,
+        frame_from_uv::hardened,
+        frame_mikktspace::generate,
+    ] {
         assert!(generate(&mut mesh).is_err());
         assert_eq!(mesh, before);
     }
@@ -168,7 +184,12 @@ fn mikktspace_keeps_the_triangles_and_matches_the_exact_frames_of_flat_bodies() 
     let mut mikk = bare(mesh.clone());
     frame_mikktspace::generate(&mut mikk).unwrap();
     mikk.validate().unwrap();
-    let corners = |m: &Mesh| m.indices.iter().map(|&i| (m.positions[i as usize], m.normals[i as usize], m.uvs[i as usize])).collect::<Vec<_>>();
+    let corners = |m: &Mesh| {
+        m.indices
+            .iter()
+            .map(|&i| (m.positions[i as usize], m.normals[i as usize], m.uvs[i as usize]))
+            .collect::<Vec<_>>()
+    };
     assert_eq!(corners(&mikk), corners(&mesh));
 }
 
@@ -200,7 +221,10 @@ impl bevy_mikktspace::Geometry for Unindexed<'_> {
 fn every_corner_keeps_the_tangent_the_algorithm_gave_it() {
     let mut half_mirrored = primitives::torus(2.0, 0.5, 16, 12);
     // Fold the texture at v = 1/2, as artists do with symmetric bodies.
-    half_mirrored.uvs.iter_mut().for_each(|uv| uv.y = 0.5 - (uv.y - 0.5).abs());
+    half_mirrored
+        .uvs
+        .iter_mut()
+        .for_each(|uv| uv.y = 0.5 - (uv.y - 0.5).abs());
     for mesh in [primitives::sphere(1.0, 16, 9), half_mirrored] {
         let mut expected = Unindexed(&mesh, vec![Vec4::ZERO; mesh.indices.len()]);
         bevy_mikktspace::generate_tangents(&mut expected).unwrap();

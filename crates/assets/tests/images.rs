@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use bossage_assets::{
-    Channel, ColorMap, Error, HeightField, Image, MAX_SIDE, NormalCodec, NormalMap, Texels, decode,
-    encode, load_image,
+    Channel, ColorMap, Error, HeightField, Image, MAX_SIDE, NormalCodec, NormalMap, Texels, decode, encode,
+    load_image,
 };
 use image::{DynamicImage, ImageFormat};
 
@@ -54,11 +54,20 @@ fn sixteen_bits_are_kept() {
 
 #[test]
 fn every_format_is_read() {
-    let lossless = [ImageFormat::Png, ImageFormat::Tga, ImageFormat::Bmp, ImageFormat::Tiff];
+    let lossless = [
+        ImageFormat::Png,
+        ImageFormat::Tga,
+        ImageFormat::Bmp,
+        ImageFormat::Tiff,
+    ];
     for format in lossless {
         let name = format!("picture.{}", format.extensions_str()[0]);
         let image = decode(Path::new(&name), &encoded(rgba8(5, 4), format)).unwrap();
-        assert_eq!((image.width, image.height, image.channels), (5, 4, 4), "{format:?}");
+        assert_eq!(
+            (image.width, image.height, image.channels),
+            (5, 4, 4),
+            "{format:?}"
+        );
         let alpha = image.channel(Channel::Alpha).unwrap();
         assert!(alpha.iter().all(|&a| a == 200.0 / 255.0), "{format:?}");
         let green = image.channel(Channel::Green).unwrap();
@@ -71,7 +80,10 @@ fn every_format_is_read() {
         let picture = image::Rgb32FImage::from_pixel(4, 4, image::Rgb([0.5, 0.25, 1.0]));
         let image = decode(Path::new("p"), &encoded(picture.into(), format)).unwrap();
         // Powers of two are exact in both formats.
-        assert!(matches!(&image.texels, Texels::Float32(v) if v[..3] == [0.5, 0.25, 1.0]), "{format:?}");
+        assert!(
+            matches!(&image.texels, Texels::Float32(v) if v[..3] == [0.5, 0.25, 1.0]),
+            "{format:?}"
+        );
     }
 }
 
@@ -80,12 +92,19 @@ fn what_we_write_we_read_back() {
     let field = HeightField::from_fn(7, 5, |x, y| (x * 5 + y) as f32 / 65535.0);
     let image = decode(Path::new("h.png"), &encode::height_png(&field).unwrap()).unwrap();
     assert_eq!(HeightField::from_image(&image, Channel::Red).unwrap(), field);
-    let map = ColorMap { width: 2, height: 1, texels: vec![[1, 2, 3, 4], [5, 6, 7, 255]] };
+    let map = ColorMap {
+        width: 2,
+        height: 1,
+        texels: vec![[1, 2, 3, 4], [5, 6, 7, 255]],
+    };
     let image = decode(Path::new("c.png"), &encode::color_png(&map).unwrap()).unwrap();
     assert_eq!(ColorMap::from_image(&image).unwrap(), map);
     let opaque = ColorMap::constant([9, 8, 7, 255]);
     let image = decode(Path::new("o.png"), &encode::color_png(&opaque).unwrap()).unwrap();
-    assert_eq!((image.channels, ColorMap::from_image(&image).unwrap()), (3, opaque));
+    assert_eq!(
+        (image.channels, ColorMap::from_image(&image).unwrap()),
+        (3, opaque)
+    );
 }
 
 #[test]
@@ -93,7 +112,10 @@ fn a_missing_file_is_named_and_the_reason_kept() {
     let error = load_image(Path::new("no/such/wall.png")).unwrap_err();
     assert!(matches!(error, Error::Read { .. }));
     let text = message(&error);
-    assert!(text.contains("no/such/wall.png") && text.contains("No such file"), "{text}");
+    assert!(
+        text.contains("no/such/wall.png") && text.contains("No such file"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -106,13 +128,23 @@ fn an_empty_file_is_said_to_be_empty() {
 
 #[test]
 fn a_truncated_file_is_refused_wherever_it_ends() {
-    for (format, name) in [(ImageFormat::Png, "a.png"), (ImageFormat::Bmp, "a.bmp"), (ImageFormat::Tga, "a.tga")] {
+    for (format, name) in [
+        (ImageFormat::Png, "a.png"),
+        (ImageFormat::Bmp, "a.bmp"),
+        (ImageFormat::Tga, "a.tga"),
+    ] {
         let whole = encoded(rgba8(64, 64), format);
-        assert!(decode(Path::new(name), &whole).is_ok(), "the control: {name} whole");
+        assert!(
+            decode(Path::new(name), &whole).is_ok(),
+            "the control: {name} whole"
+        );
         // TGA and PNG may end in bytes that carry no texels; up to half there is surely something missing.
         for end in (1..whole.len() / 2).step_by(7) {
             let error = decode(Path::new(name), &whole[..end]).unwrap_err();
-            assert!(matches!(error, Error::Decode { .. } | Error::ZeroSized { .. }), "{name} cut at {end}: {error}");
+            assert!(
+                matches!(error, Error::Decode { .. } | Error::ZeroSized { .. }),
+                "{name} cut at {end}: {error}"
+            );
             assert!(error.to_string().contains(name));
         }
     }
@@ -121,10 +153,18 @@ fn a_truncated_file_is_refused_wherever_it_ends() {
 #[test]
 fn text_is_not_an_image_whatever_its_name() {
     let text = b"height = 4\n".as_slice();
-    assert!(matches!(decode(Path::new("a.txt"), text), Err(Error::UnknownFormat { .. })));
-    assert!(matches!(decode(Path::new("a.png"), text), Err(Error::Decode { .. })));
+    assert!(matches!(
+        decode(Path::new("a.txt"), text),
+        Err(Error::UnknownFormat { .. })
+    ));
+    assert!(matches!(
+        decode(Path::new("a.png"), text),
+        Err(Error::Decode { .. })
+    ));
     // A format that exists, but that this build does not read.
-    let message = decode(Path::new("a.webp"), b"RIFF\x10\0\0\0WEBPVP8 \0\0\0\0").unwrap_err().to_string();
+    let message = decode(Path::new("a.webp"), b"RIFF\x10\0\0\0WEBPVP8 \0\0\0\0")
+        .unwrap_err()
+        .to_string();
     assert!(message.contains("use PNG, JPEG"), "{message}");
 }
 
@@ -141,7 +181,13 @@ fn png_header(width: u32, height: u32) -> Vec<u8> {
     chunk.extend(height.to_be_bytes());
     chunk.extend([8, 6, 0, 0, 0]);
     let crc = chunk.iter().fold(!0u32, |crc, &byte| {
-        (0..8).fold(crc ^ u32::from(byte), |c, _| if c & 1 == 1 { (c >> 1) ^ 0xedb8_8320 } else { c >> 1 })
+        (0..8).fold(crc ^ u32::from(byte), |c, _| {
+            if c & 1 == 1 {
+                (c >> 1) ^ 0xedb8_8320
+            } else {
+                c >> 1
+            }
+        })
     });
     let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\x0d".to_vec();
     bytes.extend(chunk);
@@ -157,19 +203,32 @@ fn zero_sized_images_are_named_as_such() {
     }
     let mut tga = encoded(rgba8(4, 4), ImageFormat::Tga);
     tga[12] = 0;
-    assert!(matches!(decode(Path::new("z.tga"), &tga), Err(Error::ZeroSized { .. })));
+    assert!(matches!(
+        decode(Path::new("z.tga"), &tga),
+        Err(Error::ZeroSized { .. })
+    ));
     let mut bmp = encoded(rgba8(4, 4), ImageFormat::Bmp);
     bmp[22] = 0;
-    assert!(matches!(decode(Path::new("z.bmp"), &bmp), Err(Error::ZeroSized { .. })));
+    assert!(matches!(
+        decode(Path::new("z.bmp"), &bmp),
+        Err(Error::ZeroSized { .. })
+    ));
 }
 
 #[test]
 fn huge_images_are_refused_from_the_header_and_the_limit_is_stated() {
-    for (width, height) in [(60_000, 60_000), (MAX_SIDE + 1, 1), (u32::MAX >> 1, u32::MAX >> 1)] {
+    for (width, height) in [
+        (60_000, 60_000),
+        (MAX_SIDE + 1, 1),
+        (u32::MAX >> 1, u32::MAX >> 1),
+    ] {
         let error = decode(Path::new("huge.png"), &png_header(width, height)).unwrap_err();
         assert!(matches!(error, Error::TooLarge { .. }), "{error}");
         let text = error.to_string();
-        assert!(text.contains("16384") && text.contains(&width.to_string()), "{text}");
+        assert!(
+            text.contains("16384") && text.contains(&width.to_string()),
+            "{text}"
+        );
     }
     // The control: the largest allowed header is not refused for its size.
     let error = decode(Path::new("big.png"), &png_header(MAX_SIDE, 1)).unwrap_err();
@@ -181,30 +240,49 @@ fn sixteen_bit_colour_at_the_longest_side_is_beyond_the_byte_limit() {
     let mut header = png_header(MAX_SIDE, MAX_SIDE);
     header[24] = 16;
     let crc = header[12..29].iter().fold(!0u32, |crc, &byte| {
-        (0..8).fold(crc ^ u32::from(byte), |c, _| if c & 1 == 1 { (c >> 1) ^ 0xedb8_8320 } else { c >> 1 })
+        (0..8).fold(crc ^ u32::from(byte), |c, _| {
+            if c & 1 == 1 {
+                (c >> 1) ^ 0xedb8_8320
+            } else {
+                c >> 1
+            }
+        })
     });
     header[29..33].copy_from_slice(&(!crc).to_be_bytes());
     // The decoder must see the start of picture data before it knows the size of a texel.
     header.extend(b"\0\0\0\0IDAT\x35\xaf\x06\x1e");
     let error = decode(Path::new("deep.png"), &header).unwrap_err();
-    assert!(matches!(error, Error::TooLarge { bytes, .. } if bytes == 1 << 31), "{error}");
+    assert!(
+        matches!(error, Error::TooLarge { bytes, .. } if bytes == 1 << 31),
+        "{error}"
+    );
 }
 
 #[test]
 fn the_first_bad_float_is_named_with_its_texel() {
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let error = decode(Path::new("sky.exr"), &rgb_float([0.0, bad, 0.0])).unwrap_err();
-        let Error::NonFinite { x, y, channel, .. } = error else { panic!("{error}") };
+        let Error::NonFinite { x, y, channel, .. } = error else {
+            panic!("{error}")
+        };
         assert_eq!((x, y, channel), (2, 1, 1));
     }
-    assert!(decode(Path::new("sky.exr"), &rgb_float([0.0, 9.0, -1.0])).is_ok(), "finite is fine as an image");
+    assert!(
+        decode(Path::new("sky.exr"), &rgb_float([0.0, 9.0, -1.0])).is_ok(),
+        "finite is fine as an image"
+    );
 }
 
 #[test]
 fn heights_outside_zero_to_one_are_refused_or_rescaled_when_asked() {
     let image = decode(Path::new("dem.exr"), &rgb_float([836.0, 0.0, 0.0])).unwrap();
-    let error = HeightField::from_image(&image, Channel::Red).unwrap_err().to_string();
-    assert!(error.contains("dem.exr") && error.contains("(2, 1)") && error.contains("836"), "{error}");
+    let error = HeightField::from_image(&image, Channel::Red)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("dem.exr") && error.contains("(2, 1)") && error.contains("836"),
+        "{error}"
+    );
     let (field, range) = HeightField::from_image_rescaled(&image, Channel::Red).unwrap();
     assert_eq!((range, field.range()), ((0.25, 836.0), (0.0, 1.0)));
     assert_eq!(field.texel(2, 1), 1.0);
@@ -212,19 +290,37 @@ fn heights_outside_zero_to_one_are_refused_or_rescaled_when_asked() {
 
 #[test]
 fn a_channel_that_is_not_there_is_named() {
-    let image = decode(Path::new("g.png"), &encoded(grey16(2, 2, |_, _| 9), ImageFormat::Png)).unwrap();
-    let error = HeightField::from_image(&image, Channel::Alpha).unwrap_err().to_string();
-    assert!(error.contains("g.png") && error.contains("no alpha channel"), "{error}");
+    let image = decode(
+        Path::new("g.png"),
+        &encoded(grey16(2, 2, |_, _| 9), ImageFormat::Png),
+    )
+    .unwrap();
+    let error = HeightField::from_image(&image, Channel::Alpha)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("g.png") && error.contains("no alpha channel"),
+        "{error}"
+    );
     for channel in [Channel::Red, Channel::Green, Channel::Blue, Channel::Luminance] {
         assert_eq!(image.channel(channel).unwrap(), [9.0 / 65535.0; 4], "{channel}");
     }
-    assert!(matches!(NormalMap::from_image(&image, NormalCodec::Unorm), Err(Error::NotANormalMap { channels: 1, .. })));
+    assert!(matches!(
+        NormalMap::from_image(&image, NormalCodec::Unorm),
+        Err(Error::NotANormalMap { channels: 1, .. })
+    ));
 }
 
 #[test]
 fn channels_are_taken_apart() {
     let texels = Texels::Unorm8(vec![255, 0, 0, 10, 0, 255, 51, 20]);
-    let image = Image { width: 2, height: 1, channels: 4, texels, path: "c.png".into() };
+    let image = Image {
+        width: 2,
+        height: 1,
+        channels: 4,
+        texels,
+        path: "c.png".into(),
+    };
     let of = |channel| image.channel(channel).unwrap();
     assert_eq!(of(Channel::Red), [1.0, 0.0]);
     assert_eq!(of(Channel::Blue), [0.0, 0.2]);
@@ -236,17 +332,39 @@ fn channels_are_taken_apart() {
 fn sixteen_bits_become_the_nearest_eight() {
     // 65535·b/255 = 257·b exactly; halfway up lies 257·b + 128.5, so 128 rounds down and 129 up.
     let texels = Texels::Unorm16(vec![257 * 77, 257 * 77 + 128, 257 * 77 + 129]);
-    let image = Image { width: 1, height: 1, channels: 3, texels, path: "n.png".into() };
+    let image = Image {
+        width: 1,
+        height: 1,
+        channels: 3,
+        texels,
+        path: "n.png".into(),
+    };
     let map = NormalMap::from_image(&image, NormalCodec::Unorm).unwrap();
     assert_eq!(map.texels, [[77, 77, 78, 255]]);
 }
 
 #[test]
 fn height_fields_from_code_are_checked() {
-    assert!(matches!(HeightField::new(2, 2, vec![0.0; 3]), Err(Error::TexelCount { expected: 4, found: 3, .. })));
-    assert!(matches!(HeightField::new(0, 2, vec![]), Err(Error::TexelCount { .. })));
-    assert!(matches!(HeightField::new(1, 2, vec![0.0, f32::NAN]), Err(Error::NonFinite { y: 1, .. })));
-    assert!(matches!(HeightField::new(1, 2, vec![-0.1, 0.0]), Err(Error::OutOfRange { y: 0, .. })));
+    assert!(matches!(
+        HeightField::new(2, 2, vec![0.0; 3]),
+        Err(Error::TexelCount {
+            expected: 4,
+            found: 3,
+            ..
+        })
+    ));
+    assert!(matches!(
+        HeightField::new(0, 2, vec![]),
+        Err(Error::TexelCount { .. })
+    ));
+    assert!(matches!(
+        HeightField::new(1, 2, vec![0.0, f32::NAN]),
+        Err(Error::NonFinite { y: 1, .. })
+    ));
+    assert!(matches!(
+        HeightField::new(1, 2, vec![-0.1, 0.0]),
+        Err(Error::OutOfRange { y: 0, .. })
+    ));
     let field = HeightField::from_fn(2, 1, |x, _| if x == 0 { f32::NAN } else { 7.0 });
     assert_eq!(field.texels, [0.0, 1.0]);
 }
@@ -262,11 +380,19 @@ fn normal_maps_know_their_lengths_and_turn_their_green() {
     assert!(!map.is_constant());
     assert_eq!(map.length_range(), (0.0, 1.0));
     for byte in 0..=255u8 {
-        let mut unorm = NormalMap { width: 1, height: 1, codec: NormalCodec::Unorm, texels: vec![[0, byte, 0, 0]] };
+        let mut unorm = NormalMap {
+            width: 1,
+            height: 1,
+            codec: NormalCodec::Unorm,
+            texels: vec![[0, byte, 0, 0]],
+        };
         let before = unorm.decode(0, 0).y;
         unorm.flip_green();
         // −(2b/255 − 1) and 2(255 − b)/255 − 1 are the same number, each rounded twice near 1: 2·2⁻²⁴ apart at most.
-        assert!((unorm.decode(0, 0).y + before).abs() <= 2.0 * 2f32.powi(-24), "byte {byte}");
+        assert!(
+            (unorm.decode(0, 0).y + before).abs() <= 2.0 * 2f32.powi(-24),
+            "byte {byte}"
+        );
     }
 }
 
@@ -277,7 +403,10 @@ fn the_shader_decode_is_the_codec() {
         for byte in 1..=255u8 {
             let shader = f32::from(byte) / 255.0 * scale + bias;
             // c, the product (≤ 2.01) and the sum round once each, scale and bias once: 2⁻²⁵·2 + 2⁻²⁴·2 + 2⁻²⁵ + 2·2⁻²⁴.
-            assert!((shader - codec.decode(byte)).abs() <= 6.0 * 2f32.powi(-24), "{codec:?} {byte}");
+            assert!(
+                (shader - codec.decode(byte)).abs() <= 6.0 * 2f32.powi(-24),
+                "{codec:?} {byte}"
+            );
         }
     }
 }
@@ -289,17 +418,33 @@ fn the_example_textures_are_what_their_readme_says() {
     assert!(!bricks.is_flat() && (bricks.width, bricks.height) == (512, 512));
     let hills = of("jacksboro_height.png");
     assert_eq!((hills.width, hills.height), (403, 344));
-    let Texels::Unorm16(samples) = &hills.texels else { panic!("16 bits") };
+    let Texels::Unorm16(samples) = &hills.texels else {
+        panic!("16 bits")
+    };
     let elevation = |v: &u16| 236 + v / 78;
     assert!(samples.iter().all(|v| v % 78 == 0));
-    assert_eq!((samples.iter().map(elevation).min(), samples.iter().map(elevation).max()), (Some(236), Some(1076)));
-    assert!(HeightField::from_image(&of("flat_height.png"), Channel::Red).unwrap().is_flat());
+    assert_eq!(
+        (
+            samples.iter().map(elevation).min(),
+            samples.iter().map(elevation).max()
+        ),
+        (Some(236), Some(1076))
+    );
+    assert!(
+        HeightField::from_image(&of("flat_height.png"), Channel::Red)
+            .unwrap()
+            .is_flat()
+    );
     let normals = |name: &str| NormalMap::from_image(&of(name), NormalCodec::Unorm).unwrap();
     assert!(normals("flat_normal.png").is_constant());
     assert!(!normals("tread_plate_normal.png").is_constant());
     let grating = ColorMap::from_image(&of("grating_albedo.png")).unwrap();
     assert_eq!(grating.alpha_range(), (0, 255));
-    assert!(ColorMap::from_image(&of("bricks_albedo.png")).unwrap().is_opaque());
+    assert!(
+        ColorMap::from_image(&of("bricks_albedo.png"))
+            .unwrap()
+            .is_opaque()
+    );
 }
 
 #[test]
@@ -311,9 +456,21 @@ fn the_brick_normals_are_the_bake_of_the_brick_heights() {
     let published = NormalMap::from_image(&of("bricks_normal.png"), NormalCodec::Unorm).unwrap();
     let baked = |edge, scale| {
         let settings = Bake::central(&field, [scale; 2], edge, NormalCodec::Unorm).unwrap();
-        bake(&field, &settings).texels.iter().map(|t| [t[0], t[1], t[2], 255]).collect::<Vec<_>>()
+        bake(&field, &settings)
+            .texels
+            .iter()
+            .map(|t| [t[0], t[1], t[2], 255])
+            .collect::<Vec<_>>()
     };
     assert_eq!(baked(EdgeMode::Wrap, 20.0 / 660.0), published.texels);
-    assert_ne!(baked(EdgeMode::Clamp, 20.0 / 660.0), published.texels, "the control: another edge");
-    assert_ne!(baked(EdgeMode::Wrap, 20.0 / 661.0), published.texels, "the control: another scale");
+    assert_ne!(
+        baked(EdgeMode::Clamp, 20.0 / 660.0),
+        published.texels,
+        "the control: another edge"
+    );
+    assert_ne!(
+        baked(EdgeMode::Wrap, 20.0 / 661.0),
+        published.texels,
+        "the control: another scale"
+    );
 }

@@ -7,7 +7,11 @@ use proptest::prelude::*;
 
 fn level(width: u32, height: u32, at: impl Fn(u32, u32) -> f32) -> Level {
     let texels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    Level { width, height, texels: texels.map(|(x, y)| Vec4::splat(at(x, y))).collect() }
+    Level {
+        width,
+        height,
+        texels: texels.map(|(x, y)| Vec4::splat(at(x, y))).collect(),
+    }
 }
 
 fn mean(level: &Level) -> f64 {
@@ -16,15 +20,24 @@ fn mean(level: &Level) -> f64 {
 
 #[test]
 fn sides_halve_and_round_down_to_one() {
-    let sides: Vec<_> = mips::chain(level(13, 5, |_, _| 0.0)).iter().map(|l| (l.width, l.height)).collect();
+    let sides: Vec<_> = mips::chain(level(13, 5, |_, _| 0.0))
+        .iter()
+        .map(|l| (l.width, l.height))
+        .collect();
     assert_eq!(sides, [(13, 5), (6, 2), (3, 1), (1, 1)]);
-    assert_eq!([1, 2, 3, 512, 513].map(|n| mips::level_count(n, 1)), [1, 2, 2, 10, 10]);
+    assert_eq!(
+        [1, 2, 3, 512, 513].map(|n| mips::level_count(n, 1)),
+        [1, 2, 2, 10, 10]
+    );
 }
 
 #[test]
 fn even_sides_average_two_by_two() {
     let chain = mips::chain(level(4, 2, |x, y| (x + 4 * y) as f32));
-    assert_eq!(chain[1].texels.iter().map(|t| t.x).collect::<Vec<_>>(), [2.5, 4.5]);
+    assert_eq!(
+        chain[1].texels.iter().map(|t| t.x).collect::<Vec<_>>(),
+        [2.5, 4.5]
+    );
     assert_eq!(chain[2].texels, [Vec4::splat(3.5)]);
 }
 
@@ -43,8 +56,22 @@ fn odd_sides_weigh_by_overlap() {
 
 #[test]
 fn lists_that_do_not_fit_give_no_levels() {
-    assert!(mips::chain(Level { width: 2, height: 2, texels: vec![Vec4::ZERO; 3] }).is_empty());
-    assert!(mips::chain(Level { width: 0, height: 2, texels: vec![] }).is_empty());
+    assert!(
+        mips::chain(Level {
+            width: 2,
+            height: 2,
+            texels: vec![Vec4::ZERO; 3]
+        })
+        .is_empty()
+    );
+    assert!(
+        mips::chain(Level {
+            width: 0,
+            height: 2,
+            texels: vec![]
+        })
+        .is_empty()
+    );
 }
 
 proptest! {
@@ -73,7 +100,11 @@ proptest! {
 
 #[test]
 fn colours_are_averaged_in_light_not_in_bytes() {
-    let map = ColorMap { width: 2, height: 1, texels: vec![[0, 0, 0, 255], [255, 255, 255, 255]] };
+    let map = ColorMap {
+        width: 2,
+        height: 1,
+        texels: vec![[0, 0, 0, 255], [255, 255, 255, 255]],
+    };
     let chain = mips::color_chain(&map);
     // Half the light is sRGB 187.5; byte averaging would give 127 or 128.
     assert_eq!(chain[1].texels, [[188, 188, 188, 255]]);
@@ -82,10 +113,18 @@ fn colours_are_averaged_in_light_not_in_bytes() {
 
 #[test]
 fn invisible_texels_do_not_bleed() {
-    let map = ColorMap { width: 2, height: 1, texels: vec![[0, 255, 0, 0], [200, 0, 0, 255]] };
+    let map = ColorMap {
+        width: 2,
+        height: 1,
+        texels: vec![[0, 255, 0, 0], [200, 0, 0, 255]],
+    };
     assert_eq!(mips::color_chain(&map)[1].texels, [[200, 0, 0, 128]]);
     // The control: where nothing is visible, the colour survives.
-    let clear = ColorMap { width: 2, height: 1, texels: vec![[9, 9, 9, 0]; 2] };
+    let clear = ColorMap {
+        width: 2,
+        height: 1,
+        texels: vec![[9, 9, 9, 0]; 2],
+    };
     assert_eq!(mips::color_chain(&clear)[1].texels, [[9, 9, 9, 0]]);
 }
 
@@ -97,11 +136,24 @@ fn normals_are_renormalised_and_the_base_is_left_alone() {
         [r, g, b, 77]
     };
     let tilted = [Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.6, 0.0, 0.8)];
-    let map = NormalMap { width: 2, height: 1, codec, texels: tilted.map(encode).to_vec() };
+    let map = NormalMap {
+        width: 2,
+        height: 1,
+        codec,
+        texels: tilted.map(encode).to_vec(),
+    };
     let chain = mips::normal_chain(&map, NormalMips::Naive);
     assert_eq!(chain[1].texels, [[128, 128, 255, 77]]);
     assert_eq!(chain[0], map);
     // Opposite normals cancel: straight up, not NaN.
-    let opposite = NormalMap { width: 2, height: 1, codec, texels: [Vec3::X, -Vec3::X].map(encode).to_vec() };
-    assert_eq!(mips::normal_chain(&opposite, NormalMips::Naive)[1].decode(0, 0), Vec3::Z);
+    let opposite = NormalMap {
+        width: 2,
+        height: 1,
+        codec,
+        texels: [Vec3::X, -Vec3::X].map(encode).to_vec(),
+    };
+    assert_eq!(
+        mips::normal_chain(&opposite, NormalMips::Naive)[1].decode(0, 0),
+        Vec3::Z
+    );
 }

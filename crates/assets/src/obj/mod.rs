@@ -4,7 +4,7 @@
 //! ignored (a scene states them). OBJ puts v = 0 at the **bottom** of the image, this project puts row 0 at v = 0: v is turned
 //! round on the way in, so images stand as they do in the modelling tool. Missing normals are made smooth.
 //!
-//! `tobj` reports no lines, takes index 0 for "none", and does not guard all index arithmetic: [`scan`] reads the face
+//! `tobj` reports no lines, takes index 0 for "none", and does not guard all index arithmetic: `scan` reads the face
 //! lines first and refuses what points nowhere.
 
 mod scan;
