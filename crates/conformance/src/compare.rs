@@ -104,6 +104,12 @@ pub struct Comparison {
 }
 
 impl Comparison {
+    /// Outputs that a property judged as a whole, without intervals.
+    #[must_use]
+    pub fn of_property(outputs: usize) -> Self {
+        Self { outputs, ..Self::default() }
+    }
+
     /// Compares the outputs of one item.
     pub fn item(&mut self, input: &[f32], got: &[f32], expected: &[Expected]) {
         for (output, (&got, expected)) in got.iter().zip(expected).enumerate() {

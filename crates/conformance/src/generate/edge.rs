@@ -63,7 +63,9 @@ pub fn hard_values(field: &Field) -> Vec<Vec<f32>> {
         Role::MapNormal => map_normals().into_iter().map(|v| v.to_vec()).collect(),
         Role::Tangent => tangents(),
         Role::Matrix => matrices().into_iter().map(|m| m.to_vec()).collect(),
-        Role::Rotation => rotations().into_iter().map(|m| m.to_vec()).collect(),
+        Role::Rigid => rigids(),
+        Role::Position => edges().into_iter().map(|v| v.to_vec()).collect(),
+        Role::Weight => vec![vec![0.0], vec![1.0], vec![1e-10], vec![100.0], vec![8e37]],
         Role::Edge => edges().into_iter().map(|v| v.to_vec()).collect(),
         role => spread(scalars(role), field.shape),
     }
@@ -91,6 +93,7 @@ fn scalars(role: Role) -> Vec<f32> {
             let unit = [0.0, 1.0, 0.5, 1.0 / 127.0, 0.5 / 127.0, 1.0 / 255.0, 1.0f32.next_down(), 1e-20, SUBNORMAL];
             unit.iter().flat_map(|&x| [x, -x]).collect()
         }
+        Role::Slope => vec![0.0, 1.0, -1.0, 0.04, 20.48, -4096.0, 1e9, 1e-6, SUBNORMAL],
         Role::Scale => vec![0.0, 0.04, -0.02, -0.04, 1.0, -1.0, 1e-6, 64.0, SUBNORMAL],
         Role::Elevation => vec![0.0, 0.02, -0.02, 0.05, -0.05, 1.0, 1e-6, SUBNORMAL],
         Role::Uv => vec![0.0, 1.0, 0.5, -0.0, -3.25, 0.999_999_9, 1000.7, 1e6, SUBNORMAL],
@@ -103,10 +106,9 @@ fn scalars(role: Role) -> Vec<f32> {
         Role::Index => vec![0.0, -1.0, 1.0, -2.0, 254.0, 255.0, 256.0, 511.0, 512.0, -255.0, -256.0, -257.0, 40_000.0],
         Role::Size => vec![1.0, 2.0, 3.0, 255.0, 256.0, 16_384.0],
         Role::EdgeMode => vec![0.0, 1.0, 2.0],
-        Role::Vector | Role::Unit | Role::MapNormal | Role::Tangent | Role::Matrix | Role::Rotation | Role::Edge => {
-            Vec::new()
-        }
-        Role::Output => vec![0.0],
+        Role::Vector | Role::Unit | Role::MapNormal | Role::Tangent | Role::Matrix | Role::Rigid | Role::Edge
+        | Role::Position | Role::Weight => Vec::new(),
+        Role::Output | Role::Direction => vec![0.0],
     }
 }
 
@@ -138,7 +140,7 @@ fn axes() -> Vec<[f32; 3]> {
 /// Vectors of every length that f32 can hold: zero, tiny, huge.
 fn vectors() -> Vec<[f32; 3]> {
     let directions = [[0.0f32, 0.0, 1.0], [1.0, 0.0, 0.0], [-1.0, 1.0, 1.0], [0.48, -0.6, 0.64], [1e-6, 0.0, 1.0]];
-    let lengths = [1.0f32, 0.5, 100.0, 1e-10, 1e-19, 1e-23, 1e-37, 1e-42, 1e10, 2e19, 3e38];
+    let lengths = [1.0f32, 0.5, 100.0, 1e-10, 1e-19, 1e-23, 1e-37, 1e-42, 1e10, 2e19, 8e37];
     let mut vectors = vec![[0.0; 3], [-0.0, 0.0, -0.0]];
     for length in lengths {
         vectors.extend(directions.map(|d| d.map(|x| x * length)));
@@ -189,6 +191,16 @@ fn matrices() -> Vec<[f32; 9]> {
     ];
     matrices.extend(rotations());
     matrices
+}
+
+/// Rotations with a translation, as 4×4 matrices.
+fn rigids() -> Vec<Vec<f32>> {
+    let shifts = [[0.0f32, 0.0, 0.0], [1.0, -2.0, 0.5], [1e4, 0.0, -1e-4]];
+    let rigid = |m: [f32; 9], t: [f32; 3]| {
+        let column = |c: usize| [m[3 * c], m[3 * c + 1], m[3 * c + 2], 0.0];
+        [column(0), column(1), column(2), [t[0], t[1], t[2], 1.0]].concat()
+    };
+    rotations().into_iter().flat_map(|m| shifts.map(|t| rigid(m, t))).collect()
 }
 
 /// Quarter turns and turns by angles whose sine and cosine are short fractions.

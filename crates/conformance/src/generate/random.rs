@@ -4,7 +4,7 @@
 //! parameter and the probe's name, so each probe has its own stream and adding a probe changes no other.
 
 use bossage_shaders::{Field, Probe, Role};
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DMat4, DQuat, DVec3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
@@ -41,7 +41,9 @@ fn value(field: &Field, rng: &mut Pcg64Mcg) -> Vec<f32> {
             vec![x, y, z, sign(rng)]
         }
         Role::Matrix => matrix(rng),
-        Role::Rotation => floats(rotation(rng)),
+        Role::Rigid => rigid(rng),
+        Role::Position => scaled(unit64(rng), log_uniform(rng, -4.0, 8.0)).to_vec(),
+        Role::Weight => vec![weight(rng)],
         Role::Edge => scaled(unit64(rng), log_uniform(rng, -10.0, 10.0)).to_vec(),
         role => (0..field.shape.floats()).map(|_| scalar(role, rng)).collect(),
     }
@@ -55,6 +57,7 @@ fn scalar(role: Role, rng: &mut Pcg64Mcg) -> f32 {
         Role::Unorm | Role::Height => unorm,
         Role::Snorm | Role::Cosine => 2.0 * unorm - 1.0,
         Role::Scale => 0.5 * (2.0 * unorm - 1.0),
+        Role::Slope => 64.0 * (2.0 * unorm - 1.0),
         Role::Elevation => 0.1 * (2.0 * unorm - 1.0),
         Role::Uv => 8.0 * (2.0 * unorm - 1.0),
         Role::UvEdge => 2.0 * unorm - 1.0,
@@ -65,8 +68,9 @@ fn scalar(role: Role, rng: &mut Pcg64Mcg) -> f32 {
         Role::Index => rng.random_range(-70_000..=70_000i32) as f32,
         Role::Size => rng.random_range(1..=16_384u32) as f32,
         Role::EdgeMode => rng.random_range(0..3u32) as f32,
-        Role::Vector | Role::Unit | Role::MapNormal | Role::Tangent | Role::Matrix | Role::Rotation | Role::Edge => unorm,
-        Role::Output => 0.0,
+        Role::Vector | Role::Unit | Role::MapNormal | Role::Tangent | Role::Matrix | Role::Rigid | Role::Edge
+        | Role::Position | Role::Weight => unorm,
+        Role::Output | Role::Direction => 0.0,
     }
 }
 
@@ -126,6 +130,17 @@ fn matrix(rng: &mut Pcg64Mcg) -> Vec<f32> {
         stretch.x = -stretch.x;
     }
     floats(rotation(rng) * DMat3::from_diagonal(stretch) * rotation(rng))
+}
+
+/// A rotation and a translation.
+fn rigid(rng: &mut Pcg64Mcg) -> Vec<f32> {
+    let shift = log_uniform(rng, -4.0, 8.0) * unit64(rng);
+    DMat4::from_mat3_translation(rotation(rng), shift).to_cols_array().map(|x| x as f32).to_vec()
+}
+
+/// A sum of areas, of the size that the vectors beside it have for the most part.
+fn weight(rng: &mut Pcg64Mcg) -> f32 {
+    log_uniform(rng, -3.0, 8.0) as f32
 }
 
 fn floats(m: DMat3) -> Vec<f32> {

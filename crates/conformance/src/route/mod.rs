@@ -1,0 +1,115 @@
+//! Routes: the ways from an assembled shader to results. One file a route.
+//!
+//! A route turns the library's WGSL into what it hands to the driver, so that what is judged is what users get. Routes that
+//! execute the other languages join here as further variants.
+
+mod spirv;
+mod wgsl;
+
+use std::fmt;
+use std::str::FromStr;
+
+use bossage_runner::{Code, Shader};
+use bossage_shaders::AssembledShader;
+use bossage_translate::{Manifest, Source};
+use serde::Serialize;
+
+use crate::error::Error;
+
+/// A way from an assembled shader to results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Route {
+    /// The text, compiled by wgpu (naga), with its bounds checks.
+    Wgsl,
+    /// The emitted SPIR-V file, passed through to Vulkan unseen.
+    Spirv,
+}
+
+impl Route {
+    /// All routes, in the order of the reports.
+    pub const ALL: [Self; 2] = [Self::Wgsl, Self::Spirv];
+
+    /// The name on the command line and in reports.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Wgsl => "wgsl",
+            Self::Spirv => "spirv",
+        }
+    }
+
+    /// Makes what this route hands to the driver.
+    ///
+    /// # Errors
+    /// What the translator says, as it shows it to people.
+    pub fn prepare(self, assembled: &AssembledShader) -> Result<Prepared, String> {
+        let shader = bossage_translate::Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl.clone()))
+            .map_err(|diagnostic| diagnostic.to_string())?;
+        match self {
+            Self::Wgsl => Ok(wgsl::prepare(&shader, assembled)),
+            Self::Spirv => spirv::prepare(&shader),
+        }
+    }
+}
+
+impl fmt::Display for Route {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Route {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let found = Self::ALL.into_iter().find(|route| route.name() == text);
+        found.ok_or_else(|| Error::NoSuchRoute { given: text.to_owned(), known: Self::ALL.map(Self::name).to_vec() })
+    }
+}
+
+/// A module as a route hands it to the driver.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    /// What each entry point binds, reads and writes.
+    pub manifest: Manifest,
+    code: Vec<(String, Text)>,
+}
+
+/// One entry point's code.
+#[derive(Clone, Debug)]
+enum Text {
+    Wgsl(String),
+    Spirv(Vec<u8>),
+}
+
+impl Prepared {
+    /// The entry point of that name, ready to run.
+    ///
+    /// # Errors
+    /// When the module lacks it.
+    pub fn shader(&self, entry: &str) -> Result<Shader<'_>, String> {
+        let described = self.manifest.entry(entry).ok_or_else(|| format!("the manifest has no entry point `{entry}`"))?;
+        let found = self.code.iter().find(|(name, _)| name == entry);
+        let (_, text) = found.ok_or_else(|| format!("no code was made for entry point `{entry}`"))?;
+        let code = match text {
+            Text::Wgsl(text) => Code::Wgsl(text),
+            Text::Spirv(bytes) => Code::Spirv(bytes),
+        };
+        Ok(Shader { code, entry: described })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Route;
+
+    #[test]
+    fn names_read_back() {
+        for route in Route::ALL {
+            assert_eq!(route.name().parse::<Route>().unwrap(), route);
+        }
+        let message = "spriv".parse::<Route>().unwrap_err().to_string();
+        assert_eq!(message, "no route is called `spriv`; there are: wgsl, spirv");
+    }
+}

@@ -1,0 +1,210 @@
+//! The techniques' algorithms over bounded numbers, shared by the rows of the table and by the surface's bound.
+//!
+//! Each follows the algorithm that the technique's documentation states, with its branches: a branch that can go either way
+//! joins both results.
+
+use super::{ONE, SMALLEST_NORMAL, ZERO};
+use crate::bounded::vector::{Vec3, add, cross, dot, length, multiply, normalize, scale, subtract};
+use crate::bounded::{Bounded, Decision};
+use crate::oracle::{Args, truth};
+
+/// Both results of a branch, joined where it can go either way; the side that is never taken is not evaluated.
+pub(crate) fn branch<const N: usize>(
+    condition: Decision,
+    yes: impl FnOnce() -> [Bounded; N],
+    no: impl FnOnce() -> [Bounded; N],
+) -> [Bounded; N] {
+    match condition {
+        Decision::Always => yes(),
+        Decision::Never => no(),
+        Decision::Either { .. } => {
+            let (yes, no) = (yes(), no());
+            std::array::from_fn(|i| Bounded::select(condition, yes[i], no[i]))
+        }
+    }
+}
+
+/// Integer functions: the truth itself, without error.
+pub(super) fn integers(args: &mut Args<'_, Bounded>, function: &str) -> Vec<Bounded> {
+    let values: Vec<f64> = args.rest().iter().map(|x| x.value).collect();
+    let exact = truth::find(function).map(|truth| truth(&mut Args::new(&values))).unwrap_or_default();
+    exact.into_iter().map(|value| Bounded::within(value, 0.0)).collect()
+}
+
+pub(super) fn each3(a: &mut Args<'_, Bounded>, f: fn(Bounded) -> Bounded) -> Vec<Bounded> {
+    a.array::<3>().map(f).to_vec()
+}
+
+pub(crate) fn largest_component(v: &Vec3) -> Bounded {
+    v[0].abs().max(v[1].abs()).max(v[2].abs())
+}
+
+pub(crate) fn normalise(v: &Vec3) -> Vec3 {
+    let largest = largest_component(v);
+    branch(largest.less(SMALLEST_NORMAL), || [ZERO; 3], || {
+        let scaled = scaled_by(v, largest);
+        let length = dot(&scaled, &scaled).max(ONE_LESS_ROUNDING).sqrt();
+        scaled.map(|x| x / length)
+    })
+}
+
+/// The largest component of a scaled vector is 1 to within the quotient's 2.5 ULP, so the squared length is at least this.
+/// The general propagation cannot see it, since it takes the divisor's and the component's errors for independent.
+const ONE_LESS_ROUNDING: Bounded = Bounded::exact(0.999_999);
+
+/// v / s where |v| ≤ s: every quotient is at most 1, plus the quotient's own error.
+fn scaled_by(v: &Vec3, largest: Bounded) -> Vec3 {
+    v.map(|x| x / largest)
+}
+
+pub(super) fn length_of(v: &Vec3) -> Bounded {
+    let largest = largest_component(v);
+    let [length] = branch(largest.less(SMALLEST_NORMAL), || [ZERO], || [largest * length(&scaled_by(v, largest))]);
+    length
+}
+
+pub(crate) fn bitangent(normal: &Vec3, tangent: &[Bounded; 4]) -> Vec3 {
+    scale(tangent[3], &cross(normal, &[tangent[0], tangent[1], tangent[2]]))
+}
+
+pub(super) fn tangent_from_normal([x, y, z]: &Vec3) -> Vec3 {
+    let side = Bounded::select(z.less(ZERO), -ONE, ONE);
+    let a = -ONE / (side + *z);
+    [ONE + side * *x * *x * a, side * (*x * *y * a), -side * *x]
+}
+
+pub(super) fn column_scales(m: &[Vec3; 3]) -> Vec3 {
+    m.each_ref().map(|column| largest_component(column).max(SMALLEST_NORMAL))
+}
+
+/// The columns divided by their largest components, and those.
+fn scaled_columns(m: &[Vec3; 3]) -> ([Vec3; 3], Vec3) {
+    let scales = column_scales(m);
+    (std::array::from_fn(|i| scaled_by(&m[i], scales[i])), scales)
+}
+
+pub(super) fn cofactor_direction(m: &[Vec3; 3], v: &Vec3) -> Vec3 {
+    let ([c0, c1, c2], scales) = scaled_columns(m);
+    let smallest = scales[0].min(scales[1]).min(scales[2]);
+    let weighted: Vec3 = std::array::from_fn(|i| v[i] * (smallest / scales[i]));
+    let (x, y, z) = (cross(&c1, &c2), cross(&c2, &c0), cross(&c0, &c1));
+    std::array::from_fn(|i| dot(&[x[i], y[i], z[i]], &weighted))
+}
+
+pub(super) fn mirror_sign(m: &[Vec3; 3]) -> Bounded {
+    let ([c0, c1, c2], _) = scaled_columns(m);
+    Bounded::select(dot(&cross(&c0, &c1), &c2).less(ZERO), -ONE, ONE)
+}
+
+pub(crate) fn lambert(normal: &Vec3, light_dir: &Vec3) -> Bounded {
+    dot(normal, light_dir).saturate()
+}
+
+pub(crate) fn highlight_power(n_dot_h: Bounded, shininess: Bounded) -> Bounded {
+    let base = n_dot_h.saturate();
+    let exponent = shininess.max(ZERO);
+    match base.less(SMALLEST_NORMAL) {
+        Decision::Always => ZERO,
+        Decision::Never => base.pow(exponent),
+        // The base lies between 0 and its upper end, and the power grows with it: from 0 to the power at that end.
+        Decision::Either { nominal } => {
+            let top = Bounded::within(base.high(), 0.0).pow(exponent);
+            let value = if nominal { 0.0 } else { base.value.powf(exponent.value) };
+            Bounded { forked: true, ..Bounded::between(value, 0.0, top.high()) }
+        }
+    }
+}
+
+pub(crate) fn blinn_phong(n: &Vec3, l: &Vec3, v: &Vec3, diffuse: &Vec3, specular: &Vec3, p: Bounded) -> Vec3 {
+    let highlight = highlight_power(dot(n, &normalise(&add(l, v))), p);
+    add(&scale(lambert(n, l), diffuse), &scale(highlight, specular))
+}
+
+pub(crate) fn blinn_phong_published(n: &Vec3, l: &Vec3, v: &Vec3, diffuse: &Vec3, specular: &Vec3, p: Bounded) -> Vec3 {
+    let highlight = lambert(n, &normalize(&add(l, v))).pow(p);
+    add(&scale(lambert(n, l), diffuse), &scale(highlight, specular))
+}
+
+/// P·t₂ − Q·t₁ and Q·s₁ − P·s₂, and the texture area's two products.
+fn triangle(p: &Vec3, q: &Vec3, st1: &[Bounded; 2], st2: &[Bounded; 2]) -> (Vec3, Vec3, [Bounded; 2]) {
+    let tangent = subtract(&scale(st2[1], p), &scale(st1[1], q));
+    let bitangent = subtract(&scale(st1[0], q), &scale(st2[0], p));
+    (tangent, bitangent, multiply(&[st1[0], st2[0]], &[st2[1], st1[1]]))
+}
+
+pub(super) fn frame_from_uv_triangle(p: &Vec3, q: &Vec3, st1: &[Bounded; 2], st2: &[Bounded; 2]) -> Vec<Bounded> {
+    let normal = cross(p, q);
+    let area = length_of(&normal);
+    let (tangent, bitangent, [first, second]) = triangle(p, q, st1, st2);
+    let uv_area = first - second;
+    let noise = Bounded::exact(2.384_185_8e-7) * (first.abs() + second.abs());
+    let shortest = largest_component(&tangent).min(largest_component(&bitangent));
+    let skipped = uv_area.abs().less_or_equal(noise).or(area.less_or_equal(ZERO)).or(shortest.less(SMALLEST_NORMAL));
+    let share: [Bounded; 7] = branch(skipped, || [ZERO; 7], || {
+        let side = Bounded::select(uv_area.greater(ZERO), ONE, -ONE);
+        let unit = |v: &Vec3| scale(area, &normalise(&scale(side, v)));
+        let ([tx, ty, tz], [bx, by, bz]) = (unit(&tangent), unit(&bitangent));
+        [tx, ty, tz, bx, by, bz, area]
+    });
+    [normal.as_slice(), share.as_slice()].concat()
+}
+
+pub(super) fn frame_from_uv_triangle_published(
+    p: &Vec3,
+    q: &Vec3,
+    st1: &[Bounded; 2],
+    st2: &[Bounded; 2],
+) -> Vec<Bounded> {
+    let (tangent, bitangent, [first, second]) = triangle(p, q, st1, st2);
+    let inverse = ONE / (first - second);
+    let normal = normalize(&cross(p, q));
+    [normal.as_slice(), &scale(inverse, &tangent), &scale(inverse, &bitangent), &[ONE]].concat()
+}
+
+pub(super) fn gram_schmidt(normal: &Vec3, tangent: &Vec3) -> Vec3 {
+    subtract(tangent, &scale(dot(normal, tangent), normal))
+}
+
+pub(super) fn handedness(normal: &Vec3, tangent: &Vec3, bitangent: &Vec3) -> Bounded {
+    Bounded::select(dot(&cross(normal, tangent), bitangent).less(ZERO), -ONE, ONE)
+}
+
+pub(super) fn frame_from_uv_vertex(normal: &Vec3, tangent: &Vec3, bitangent: &Vec3, weight: Bounded) -> [Bounded; 4] {
+    let projected = gram_schmidt(normal, tangent);
+    let left = length_of(&projected);
+    let cancelled = left.less_or_equal(Bounded::exact(1.0 / 4096.0) * weight).or(left.less(SMALLEST_NORMAL));
+    branch(cancelled, || with_sign(tangent_from_normal(normal), ONE), || {
+        let unit = normalise(&projected);
+        with_sign(unit, handedness(normal, &unit, bitangent))
+    })
+}
+
+fn with_sign([x, y, z]: Vec3, sign: Bounded) -> [Bounded; 4] {
+    [x, y, z, sign]
+}
+
+pub(crate) fn combine_frame(tangent: &Vec3, bitangent: &Vec3, normal: &Vec3, v: &Vec3) -> Vec3 {
+    std::array::from_fn(|i| dot(v, &[tangent[i], bitangent[i], normal[i]]))
+}
+
+pub(super) fn normal_of_slopes(gx: Bounded, gy: Bounded) -> Vec<Bounded> {
+    let r = ONE / dot(&[gx, gy, ONE], &[gx, gy, ONE]).max(ONE).sqrt();
+    vec![-gx * r, -gy * r, r]
+}
+
+pub(crate) fn light_to_tangent(tangent: &Vec3, bitangent: &Vec3, normal: &Vec3, light: &Vec3) -> Vec3 {
+    [dot(tangent, light), dot(bitangent, light), dot(normal, light)]
+}
+
+pub(crate) fn parallax_offset(uv: &[Bounded; 2], z: Bounded, v: &Vec3) -> [Bounded; 2] {
+    let divisor = v[2].max(Bounded::exact(0.05));
+    [uv[0] + z * v[0] / divisor, uv[1] + z * v[1] / divisor]
+}
+
+pub(crate) fn parallax_offset_published(uv: &[Bounded; 2], z: Bounded, v: &Vec3) -> [Bounded; 2] {
+    [uv[0] + z * v[0] / v[2], uv[1] + z * v[1] / v[2]]
+}
+
+pub(crate) fn parallax_offset_limited(uv: &[Bounded; 2], z: Bounded, v: &Vec3) -> [Bounded; 2] {
+    [uv[0] + z * v[0], uv[1] + z * v[1]]
+}
