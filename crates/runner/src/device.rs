@@ -166,9 +166,13 @@ impl Device {
         }
     }
 
-    /// Waits until everything submitted so far is done.
-    pub(crate) fn wait(&self, job: &str) -> Result<(), Error> {
-        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+    /// Waits until this submission is done.
+    pub(crate) fn wait(&self, job: &str, submission: wgpu::SubmissionIndex) -> Result<(), Error> {
+        let poll = wgpu::PollType::Wait {
+            submission_index: Some(submission),
+            timeout: None,
+        };
+        let waited = self.device.poll(poll);
         waited.map(|_| ()).map_err(|error| Error::Internal {
             job: job.to_owned(),
             message: error.to_string(),

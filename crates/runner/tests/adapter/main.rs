@@ -1,0 +1,11 @@
+//! What the runner does on a real adapter: lavapipe where it is there, else whatever is.
+//!
+//! Without an adapter these tests are skipped, each saying so with a running number; where `BOSSAGE_REQUIRE` lists
+//! `lavapipe`, they fail instead.
+
+mod compute;
+mod errors;
+mod render;
+mod routes;
+mod support;
+mod timing;
