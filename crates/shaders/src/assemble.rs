@@ -39,16 +39,24 @@ pub(crate) struct Assembled {
 
 impl Resolver for Modules<'_> {
     fn resolve_source<'b>(&'b self, path: &ModulePath) -> Result<Cow<'b, str>, ResolveError> {
-        let source = self.sources.get(&path.to_string()).ok_or_else(|| not_found(path))?;
+        let source = self
+            .sources
+            .get(&path.to_string())
+            .ok_or_else(|| not_found(path))?;
         Ok(Cow::Borrowed(&source.text))
     }
 
     fn resolve_module(&self, path: &ModulePath) -> Result<TranslationUnit, ResolveError> {
-        self.trees.get(&path.to_string()).cloned().ok_or_else(|| not_found(path))
+        self.trees
+            .get(&path.to_string())
+            .cloned()
+            .ok_or_else(|| not_found(path))
     }
 
     fn display_name(&self, path: &ModulePath) -> Option<String> {
-        self.sources.get(&path.to_string()).map(|source| source.file.clone())
+        self.sources
+            .get(&path.to_string())
+            .map(|source| source.file.clone())
     }
 }
 
@@ -60,14 +68,23 @@ struct Renames<'a>(&'a BTreeMap<(String, String), String>);
 
 impl Mangler for Renames<'_> {
     fn mangle(&self, path: &ModulePath, item: &str) -> String {
-        self.0.get(&(path.to_string(), item.to_owned())).cloned().unwrap_or_else(|| item.to_owned())
+        self.0
+            .get(&(path.to_string(), item.to_owned()))
+            .cloned()
+            .unwrap_or_else(|| item.to_owned())
     }
 }
 
 /// The features of a module: those named are on, all others known are off, unknown ones are errors.
 pub(crate) fn features<'a>(known: impl IntoIterator<Item = &'a str>, on: &[&str]) -> Features {
-    let flags = known.into_iter().map(|name| (name.to_owned(), Feature::from(on.contains(&name)))).collect();
-    Features { default: Feature::Error, flags }
+    let flags = known
+        .into_iter()
+        .map(|name| (name.to_owned(), Feature::from(on.contains(&name))))
+        .collect();
+    Features {
+        default: Feature::Error,
+        flags,
+    }
 }
 
 /// Assembles one module.
@@ -85,13 +102,21 @@ pub(crate) fn assemble(modules: &Modules<'_>, job: &Job<'_>) -> Result<Assembled
         return Err(declared_twice(&name, modules, &result.modules).into());
     }
     let wgsl = result.syntax.to_string();
-    let files = result.modules.iter().filter_map(|path| modules.display_name(path)).collect();
+    let files = result
+        .modules
+        .iter()
+        .filter_map(|path| modules.display_name(path))
+        .collect();
     Ok(Assembled { wgsl, modules: files })
 }
 
 fn twice_declared(syntax: &TranslationUnit) -> Option<String> {
     let mut seen = BTreeSet::new();
-    syntax.global_declarations.iter().filter_map(|it| declared_name(it.node())).find(|name| !seen.insert(name.clone()))
+    syntax
+        .global_declarations
+        .iter()
+        .filter_map(|it| declared_name(it.node()))
+        .find(|name| !seen.insert(name.clone()))
 }
 
 fn declared_twice(name: &str, modules: &Modules<'_>, used: &[ModulePath]) -> SourceError {
@@ -100,10 +125,17 @@ fn declared_twice(name: &str, modules: &Modules<'_>, used: &[ModulePath]) -> Sou
         .filter_map(|path| modules.sources.get(&path.to_string()))
         .filter(|source| source.declared().any(|declared| declared == name))
         .collect();
-    let others = holders.iter().skip(1).map(|source| format!("`{}`", source.file)).collect::<Vec<_>>().join(", ");
+    let others = holders
+        .iter()
+        .skip(1)
+        .map(|source| format!("`{}`", source.file))
+        .collect::<Vec<_>>()
+        .join(", ");
     let message = format!("`{name}` is declared twice in one module; names are not mangled");
     match holders.first() {
-        Some(first) if !others.is_empty() => first.fault_at_word(name, message).hint(format!("also declared in {others}")),
+        Some(first) if !others.is_empty() => first
+            .fault_at_word(name, message)
+            .hint(format!("also declared in {others}")),
         Some(first) => first.fault_at_word(name, message),
         None => SourceError::in_file(message, "assembled module"),
     }

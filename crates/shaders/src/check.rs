@@ -14,10 +14,18 @@ pub(crate) type Sources = BTreeMap<String, Source>;
 
 /// Every feature that a source names is known.
 pub(crate) fn features_known(source: &Source, known: &[&str]) -> Result<(), Error> {
-    match features::used(&source.syntax).into_iter().find(|(name, _)| !known.contains(&name.as_str())) {
+    match features::used(&source.syntax)
+        .into_iter()
+        .find(|(name, _)| !known.contains(&name.as_str()))
+    {
         None => Ok(()),
         Some((name, range)) => {
-            let error = crate::SourceError::at(format!("there is no feature `{name}`"), &source.file, &source.text, range);
+            let error = crate::SourceError::at(
+                format!("there is no feature `{name}`"),
+                &source.file,
+                &source.text,
+                range,
+            );
             Err(error.hint(nearest(&name, known)).into())
         }
     }
@@ -27,14 +35,23 @@ pub(crate) fn features_known(source: &Source, known: &[&str]) -> Result<(), Erro
 pub(crate) fn imports_resolve(source: &Source, here: &ModulePath, sources: &Sources) -> Result<(), Error> {
     for Imported { module, item, .. } in source.imports(here) {
         let Some(target) = sources.get(&module.to_string()) else {
-            let last = module.components.last().cloned().unwrap_or_else(|| module.to_string());
-            return Err(source.fault_at_import(&last, format!("there is no module `{module}`")).into());
+            let last = module
+                .components
+                .last()
+                .cloned()
+                .unwrap_or_else(|| module.to_string());
+            return Err(source
+                .fault_at_import(&last, format!("there is no module `{module}`"))
+                .into());
         };
         if !target.declared().any(|declared| declared == item) {
             let message = format!("`{}` declares no `{item}`", target.file);
             let declared: Vec<String> = target.declared().collect();
             let names: Vec<&str> = declared.iter().map(String::as_str).collect();
-            return Err(source.fault_at_import(&item, message).hint(nearest(&item, &names)).into());
+            return Err(source
+                .fault_at_import(&item, message)
+                .hint(nearest(&item, &names))
+                .into());
         }
     }
     Ok(())
@@ -46,16 +63,25 @@ pub(crate) fn no_capture(source: &Source, here: &ModulePath) -> Result<(), Error
     match captured(source, here).first() {
         None => Ok(()),
         Some(name) => {
-            let message = format!("a local variable has the name `{name}`, which an import brings in under another name");
-            Err(source.fault_at_word(name, message).hint("rename the local variable").into())
+            let message = format!(
+                "a local variable has the name `{name}`, which an import brings in under another name"
+            );
+            Err(source
+                .fault_at_word(name, message)
+                .hint("rename the local variable")
+                .into())
         }
     }
 }
 
 /// The names that a local variable of this file would catch.
 pub(crate) fn captured(source: &Source, here: &ModulePath) -> Vec<String> {
-    let mut hidden: BTreeSet<String> =
-        source.imports(here).into_iter().filter(|import| import.renamed).map(|import| import.item).collect();
+    let mut hidden: BTreeSet<String> = source
+        .imports(here)
+        .into_iter()
+        .filter(|import| import.renamed)
+        .map(|import| import.item)
+        .collect();
     hidden.extend(source.inline_path_items().into_iter().map(|(name, _)| name));
     let locals: BTreeSet<String> = source.locals().into_iter().collect();
     hidden.intersection(&locals).cloned().collect()
@@ -73,7 +99,11 @@ pub(crate) fn orphans(sources: &Sources, roots: &[ModulePath]) -> Vec<String> {
             todo.extend(source.imports(&path).into_iter().map(|import| import.module));
         }
     }
-    sources.iter().filter(|(path, _)| !reached.contains(*path)).map(|(_, source)| source.file.clone()).collect()
+    sources
+        .iter()
+        .filter(|(path, _)| !reached.contains(*path))
+        .map(|(_, source)| source.file.clone())
+        .collect()
 }
 
 /// "did you mean", or the list of what there is.
@@ -113,8 +143,14 @@ mod tests {
 
     #[test]
     fn hints() {
-        assert_eq!(nearest("specualr", &["relief", "specular"]), "did you mean `specular`?");
-        assert_eq!(nearest("x", &["relief", "specular"]), "there are: relief, specular");
+        assert_eq!(
+            nearest("specualr", &["relief", "specular"]),
+            "did you mean `specular`?"
+        );
+        assert_eq!(
+            nearest("x", &["relief", "specular"]),
+            "there are: relief, specular"
+        );
         assert_eq!(nearest("x", &[]), "none is defined here");
     }
 }

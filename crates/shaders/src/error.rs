@@ -25,7 +25,9 @@ pub enum Error {
         path: PathBuf,
     },
     /// A shader folder without a file that the tables name.
-    #[error("the shader library in {library} has no `{file}`; `--shader-dir` expects a copy of the whole `shaders` folder")]
+    #[error(
+        "the shader library in {library} has no `{file}`; `--shader-dir` expects a copy of the whole `shaders` folder"
+    )]
     MissingFile {
         /// Where the library was read from.
         library: String,
@@ -33,7 +35,9 @@ pub enum Error {
         file: String,
     },
     /// A file that no table and no import reaches.
-    #[error("the shader library in {library} has the file `{file}`, which nothing reaches: import it, list it, or delete it")]
+    #[error(
+        "the shader library in {library} has the file `{file}`, which nothing reaches: import it, list it, or delete it"
+    )]
     Orphan {
         /// Where the library was read from.
         library: String,
@@ -62,7 +66,12 @@ pub struct SourceError {
 
 impl SourceError {
     /// A fault at a byte range of a text.
-    pub(crate) fn at(message: impl Into<String>, file: &str, text: &str, range: std::ops::Range<usize>) -> Self {
+    pub(crate) fn at(
+        message: impl Into<String>,
+        file: &str,
+        text: &str,
+        range: std::ops::Range<usize>,
+    ) -> Self {
         let start = floor_boundary(text, range.start);
         let end = floor_boundary(text, range.end).max(start);
         let line_start = text[..start].rfind('\n').map_or(0, |at| at + 1);
@@ -73,14 +82,23 @@ impl SourceError {
             message: message.into(),
             file: file.to_owned(),
             position: Some((text[..start].matches('\n').count() + 1, column)),
-            snippet: Some((text[line_start..line_end].trim_end_matches('\r').to_owned(), marked)),
+            snippet: Some((
+                text[line_start..line_end].trim_end_matches('\r').to_owned(),
+                marked,
+            )),
             hint: None,
         }
     }
 
     /// A fault of a file as a whole.
     pub(crate) fn in_file(message: impl Into<String>, file: &str) -> Self {
-        SourceError { message: message.into(), file: file.to_owned(), position: None, snippet: None, hint: None }
+        SourceError {
+            message: message.into(),
+            file: file.to_owned(),
+            position: None,
+            snippet: None,
+            hint: None,
+        }
     }
 
     pub(crate) fn hint(mut self, hint: impl Into<String>) -> Self {
@@ -105,8 +123,16 @@ impl fmt::Display for SourceError {
             let number = line.to_string();
             let margin = " ".repeat(number.len());
             // Tabs are kept in the padding so that the caret stays below its character.
-            let pad: String = text.chars().take(column - 1).map(|c| if c == '\t' { '\t' } else { ' ' }).collect();
-            write!(f, "\n{margin} |\n{number} | {text}\n{margin} | {pad}{}", "^".repeat(*marked))?;
+            let pad: String = text
+                .chars()
+                .take(column - 1)
+                .map(|c| if c == '\t' { '\t' } else { ' ' })
+                .collect();
+            write!(
+                f,
+                "\n{margin} |\n{number} | {text}\n{margin} | {pad}{}",
+                "^".repeat(*marked)
+            )?;
         }
         if let Some(hint) = &self.hint {
             write!(f, "\n  = {hint}")?;

@@ -189,7 +189,11 @@ impl FeatureSet {
     pub fn all_effects(self) -> Self {
         let object = self.canonical().space == LightingSpace::Object;
         FeatureSet {
-            relief: if self.relief == Relief::None { Relief::ParallaxOffsetLimited } else { self.relief },
+            relief: if self.relief == Relief::None {
+                Relief::ParallaxOffsetLimited
+            } else {
+                self.relief
+            },
             normal: NormalSource::Map,
             lights: match (object, self.lights) {
                 (true, Lights::Point) => Lights::Point,
@@ -199,7 +203,11 @@ impl FeatureSet {
             specular: true,
             albedo: Albedo::Map,
             alpha: Alpha::Mask,
-            transform: if object { Transform::Rigid } else { Transform::General },
+            transform: if object {
+                Transform::Rigid
+            } else {
+                Transform::General
+            },
             mirrored_uv: true,
             space: self.space,
             form: self.form,

@@ -53,7 +53,10 @@ pub(crate) fn of_vertex(key: &VertexKey) -> Vec<&'static str> {
         ("position_varying", key.position),
         ("tangent_varying", key.tangent),
         ("uv_varying", key.uv),
-        ("world_matrix", !object_space && (key.position || key.tangent || (key.normal && !general))),
+        (
+            "world_matrix",
+            !object_space && (key.position || key.tangent || (key.normal && !general)),
+        ),
     ])
 }
 
@@ -75,9 +78,15 @@ pub(crate) fn of_fragment(key: &FragmentKey, capture: bool) -> Vec<&'static str>
         ("normal_map", key.normal == NormalSource::Map),
         ("normal_varying", lit || relief),
         ("parallax_offset", key.relief == Relief::ParallaxOffset),
-        ("parallax_offset_limited", key.relief == Relief::ParallaxOffsetLimited),
+        (
+            "parallax_offset_limited",
+            key.relief == Relief::ParallaxOffsetLimited,
+        ),
         ("point_light", key.lights == Lights::Point),
-        ("position_varying", view || matches!(key.lights, Lights::Point | Lights::Many)),
+        (
+            "position_varying",
+            view || matches!(key.lights, Lights::Point | Lights::Many),
+        ),
         ("published", key.form == Form::Published),
         ("relief", relief),
         ("specular", key.specular),
@@ -88,7 +97,10 @@ pub(crate) fn of_fragment(key: &FragmentKey, capture: bool) -> Vec<&'static str>
 }
 
 fn on<const N: usize>(features: [(&'static str, bool); N]) -> Vec<&'static str> {
-    features.into_iter().filter_map(|(name, on)| on.then_some(name)).collect()
+    features
+        .into_iter()
+        .filter_map(|(name, on)| on.then_some(name))
+        .collect()
 }
 
 /// Every feature that a module names, with the place in its text.
@@ -113,7 +125,10 @@ fn names(condition: &ExpressionNode, found: &mut Vec<(String, Range<usize>)>) {
             names(&inner.operand, found);
         }
         Expression::Binary(pair)
-            if matches!(pair.operator, BinaryOperator::ShortCircuitAnd | BinaryOperator::ShortCircuitOr) =>
+            if matches!(
+                pair.operator,
+                BinaryOperator::ShortCircuitAnd | BinaryOperator::ShortCircuitOr
+            ) =>
         {
             names(&pair.left, found);
             names(&pair.right, found);
@@ -182,10 +197,15 @@ fn bodies_of(statement: &Statement) -> Vec<&CompoundStatement> {
         Statement::Compound(it) => vec![it],
         Statement::If(it) => {
             let chained = it.else_if_clauses.iter().map(|clause| &clause.body);
-            std::iter::once(&it.if_clause.body).chain(chained).chain(it.else_clause.iter().map(|c| &c.body)).collect()
+            std::iter::once(&it.if_clause.body)
+                .chain(chained)
+                .chain(it.else_clause.iter().map(|c| &c.body))
+                .collect()
         }
         Statement::Switch(it) => it.clauses.iter().map(|clause| &clause.body).collect(),
-        Statement::Loop(it) => std::iter::once(&it.body).chain(it.continuing.iter().map(|c| &c.body)).collect(),
+        Statement::Loop(it) => std::iter::once(&it.body)
+            .chain(it.continuing.iter().map(|c| &c.body))
+            .collect(),
         Statement::For(it) => vec![&it.body],
         Statement::While(it) => vec![&it.body],
         Statement::Void
@@ -211,14 +231,24 @@ fn attributes_of(statement: &Statement) -> Vec<&Attributes> {
         Statement::Decrement(it) => vec![&it.attributes],
         Statement::If(it) => {
             let chained = it.else_if_clauses.iter().map(|clause| &clause.attributes);
-            std::iter::once(&it.attributes).chain(chained).chain(it.else_clause.iter().map(|c| &c.attributes)).collect()
+            std::iter::once(&it.attributes)
+                .chain(chained)
+                .chain(it.else_clause.iter().map(|c| &c.attributes))
+                .collect()
         }
-        Statement::Switch(it) => {
-            std::iter::once(&it.attributes).chain(it.clauses.iter().map(|clause| &clause.attributes)).collect()
-        }
+        Statement::Switch(it) => std::iter::once(&it.attributes)
+            .chain(it.clauses.iter().map(|clause| &clause.attributes))
+            .collect(),
         Statement::Loop(it) => {
-            let breaks = it.continuing.iter().filter_map(|c| c.break_if.as_ref()).map(|b| &b.attributes);
-            std::iter::once(&it.attributes).chain(it.continuing.iter().map(|c| &c.attributes)).chain(breaks).collect()
+            let breaks = it
+                .continuing
+                .iter()
+                .filter_map(|c| c.break_if.as_ref())
+                .map(|b| &b.attributes);
+            std::iter::once(&it.attributes)
+                .chain(it.continuing.iter().map(|c| &c.attributes))
+                .chain(breaks)
+                .collect()
         }
         Statement::For(it) => vec![&it.attributes],
         Statement::While(it) => vec![&it.attributes],

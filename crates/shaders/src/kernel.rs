@@ -49,7 +49,9 @@ impl Kernel {
     #[must_use]
     pub fn workgroup_size(self) -> [u32; 3] {
         match self {
-            Kernel::HeightToNormal | Kernel::HeightToNormalForward | Kernel::HeightToNormalForwardPublished => [8, 8, 1],
+            Kernel::HeightToNormal
+            | Kernel::HeightToNormalForward
+            | Kernel::HeightToNormalForwardPublished => [8, 8, 1],
             Kernel::FrameFromUvTriangles
             | Kernel::FrameFromUvTrianglesPublished
             | Kernel::FrameFromUvVertices

@@ -39,7 +39,9 @@ mod technique;
 mod user_file;
 
 pub use error::{Error, SourceError};
-pub use feature_set::{Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform};
+pub use feature_set::{
+    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform,
+};
 pub use kernel::Kernel;
 pub use library::{AssembledShader, Library};
 pub use probe::{Field, Probe, ProbeId, Role, Shape, WORKGROUP_SIZE};

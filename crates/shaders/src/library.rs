@@ -11,7 +11,9 @@ use wesl::syntax::PathOrigin;
 use crate::assemble::{self, Assembled, Job, Modules, Trees, path_of_file};
 use crate::check::{self, Sources};
 use crate::source::Source;
-use crate::{Error, FeatureSet, Kernel, PROBES, ProbeId, Result, Stage, TECHNIQUES, features, probe_entry, read};
+use crate::{
+    Error, FeatureSet, Kernel, PROBES, ProbeId, Result, Stage, TECHNIQUES, features, probe_entry, read,
+};
 
 static EMBEDDED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
 const VERTEX_FILE: &str = "entry/surface_vertex.wesl";
@@ -70,18 +72,27 @@ impl Library {
             let path = path_of_file(PathOrigin::Absolute, file);
             sources.insert(path.to_string(), Source::parse(file, text)?);
         }
-        let library = Library { origin, sources, pool: Mutex::new(Vec::new()) };
+        let library = Library {
+            origin,
+            sources,
+            pool: Mutex::new(Vec::new()),
+        };
         library.check(files)?;
         Ok(library)
     }
 
     fn check(&self, files: &BTreeMap<String, String>) -> Result<()> {
         if let Some(file) = roots().into_iter().find(|file| !files.contains_key(*file)) {
-            return Err(Error::MissingFile { library: self.origin.clone(), file: file.to_owned() });
+            return Err(Error::MissingFile {
+                library: self.origin.clone(),
+                file: file.to_owned(),
+            });
         }
         for file in files.keys() {
             let path = path_of_file(PathOrigin::Absolute, file);
-            let Some(source) = self.sources.get(&path.to_string()) else { continue };
+            let Some(source) = self.sources.get(&path.to_string()) else {
+                continue;
+            };
             check::features_known(source, features::KNOWN)?;
             check::imports_resolve(source, &path, &self.sources)?;
             check::no_capture(source, &path)?;
@@ -92,7 +103,10 @@ impl Library {
     /// The files that neither a table nor an import reaches. None in a healthy library; a test holds that.
     #[must_use]
     pub fn orphans(&self) -> Vec<String> {
-        let roots: Vec<ModulePath> = roots().into_iter().map(|file| path_of_file(PathOrigin::Absolute, file)).collect();
+        let roots: Vec<ModulePath> = roots()
+            .into_iter()
+            .map(|file| path_of_file(PathOrigin::Absolute, file))
+            .collect();
         check::orphans(&self.sources, &roots)
     }
 
@@ -113,12 +127,18 @@ impl Library {
     /// The functions of `lib/` and `techniques/` as (file, function), sorted: what probes must cover.
     #[must_use]
     pub fn functions(&self) -> Vec<(String, String)> {
-        let pure = |source: &&Source| source.file.starts_with("lib/") || source.file.starts_with("techniques/");
+        let pure =
+            |source: &&Source| source.file.starts_with("lib/") || source.file.starts_with("techniques/");
         let mut all: Vec<(String, String)> = self
             .sources
             .values()
             .filter(pure)
-            .flat_map(|source| source.functions().into_iter().map(|name| (source.file.clone(), name)))
+            .flat_map(|source| {
+                source
+                    .functions()
+                    .into_iter()
+                    .map(|name| (source.file.clone(), name))
+            })
             .collect();
         all.sort();
         all
@@ -132,13 +152,27 @@ impl Library {
         let (file, entry, name, on) = match stage {
             Stage::Vertex => {
                 let key = set.vertex();
-                (VERTEX_FILE, "surface_vertex", key.name(), features::of_vertex(&key))
+                (
+                    VERTEX_FILE,
+                    "surface_vertex",
+                    key.name(),
+                    features::of_vertex(&key),
+                )
             }
             Stage::Fragment | Stage::FragmentCapture => {
                 let key = set.fragment();
                 let capture = stage == Stage::FragmentCapture;
-                let name = if capture { format!("{}-capture", key.name()) } else { key.name() };
-                (FRAGMENT_FILE, "surface_fragment", name, features::of_fragment(&key, capture))
+                let name = if capture {
+                    format!("{}-capture", key.name())
+                } else {
+                    key.name()
+                };
+                (
+                    FRAGMENT_FILE,
+                    "surface_fragment",
+                    name,
+                    features::of_fragment(&key, capture),
+                )
             }
         };
         self.assemble(file, entry, name, on)
@@ -168,10 +202,21 @@ impl Library {
     /// # Errors
     /// When the sources do not assemble.
     pub fn assemble_kernel(&self, kernel: Kernel) -> Result<AssembledShader> {
-        self.assemble(kernel.file(), kernel.entry(), kernel.entry().to_owned(), Vec::new())
+        self.assemble(
+            kernel.file(),
+            kernel.entry(),
+            kernel.entry().to_owned(),
+            Vec::new(),
+        )
     }
 
-    fn assemble(&self, file: &str, entry: &str, name: String, on: Vec<&'static str>) -> Result<AssembledShader> {
+    fn assemble(
+        &self,
+        file: &str,
+        entry: &str,
+        name: String,
+        on: Vec<&'static str>,
+    ) -> Result<AssembledShader> {
         let trees = self.borrow_trees()?;
         let assembled = self.run(&trees, path_of_file(PathOrigin::Absolute, file), entry, &on);
         self.give_back(trees);
@@ -179,9 +224,17 @@ impl Library {
     }
 
     fn run(&self, trees: &Trees, root: ModulePath, entry: &str, on: &[&str]) -> Result<Assembled> {
-        let modules = Modules { sources: &self.sources, trees };
+        let modules = Modules {
+            sources: &self.sources,
+            trees,
+        };
         let features = assemble::features(features::KNOWN.iter().copied(), on);
-        let job = Job { root, keep: Some(vec![entry.to_owned()]), features, renames: &BTreeMap::new() };
+        let job = Job {
+            root,
+            keep: Some(vec![entry.to_owned()]),
+            features,
+            renames: &BTreeMap::new(),
+        };
         assemble::assemble(&modules, &job)
     }
 
@@ -195,7 +248,10 @@ impl Library {
     }
 
     fn give_back(&self, trees: Trees) {
-        self.pool.lock().unwrap_or_else(PoisonError::into_inner).push(trees);
+        self.pool
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .push(trees);
     }
 
     /// Fresh trees of all sources.
@@ -222,15 +278,30 @@ fn roots() -> Vec<&'static str> {
 }
 
 fn named(name: String, features: Vec<&'static str>, assembled: Assembled) -> AssembledShader {
-    let listed = if features.is_empty() { "none".to_owned() } else { features.join(", ") };
+    let listed = if features.is_empty() {
+        "none".to_owned()
+    } else {
+        features.join(", ")
+    };
     let wgsl = format!("// {name}\n// features: {listed}\n\n{}", assembled.wgsl);
-    AssembledShader { name, wgsl, features, modules: assembled.modules }
+    AssembledShader {
+        name,
+        wgsl,
+        features,
+        modules: assembled.modules,
+    }
 }
 
 fn collect(dir: &Dir<'_>, files: &mut BTreeMap<String, String>) -> Result<()> {
     for file in dir.files() {
-        if file.path().extension().is_some_and(|extension| extension == "wesl") {
-            let text = file.contents_utf8().ok_or_else(|| Error::NotText { path: file.path().to_owned() })?;
+        if file
+            .path()
+            .extension()
+            .is_some_and(|extension| extension == "wesl")
+        {
+            let text = file.contents_utf8().ok_or_else(|| Error::NotText {
+                path: file.path().to_owned(),
+            })?;
             files.insert(read::slashed(file.path()), text.to_owned());
         }
     }

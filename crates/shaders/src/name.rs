@@ -3,7 +3,9 @@
 //! A name is the base word followed by the effects that are on, in a fixed order, joined by `-`. Only lower-case letters,
 //! digits, `_` and `-` occur, so a name is safe on every file system and, with `-` replaced, as an identifier.
 
-use crate::feature_set::{Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform};
+use crate::feature_set::{
+    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform,
+};
 use crate::stage::{FragmentKey, VertexKey};
 
 impl FeatureSet {
@@ -75,7 +77,9 @@ impl FragmentKey {
 }
 
 fn join<const N: usize>(base: &str, effects: [Option<&str>; N]) -> String {
-    let words: Vec<&str> = std::iter::once(base).chain(effects.into_iter().flatten()).collect();
+    let words: Vec<&str> = std::iter::once(base)
+        .chain(effects.into_iter().flatten())
+        .collect();
     words.join("-")
 }
 

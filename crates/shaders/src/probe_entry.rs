@@ -6,7 +6,10 @@ use crate::probe::{Field, Probe, Shape, WORKGROUP_SIZE};
 
 /// The root module of a probe.
 pub(crate) fn source(probe: &Probe) -> String {
-    let (function, module) = (probe.function(), probe.file.trim_end_matches(".wesl").replace('/', "::"));
+    let (function, module) = (
+        probe.function(),
+        probe.file.trim_end_matches(".wesl").replace('/', "::"),
+    );
     let (stride_in, stride_out) = (probe.input_floats, probe.output_floats);
     let mut text = format!(
         "import package::{module}::{function};\n\
@@ -37,7 +40,9 @@ fn arguments(fields: &[Field]) -> String {
 }
 
 fn argument(shape: Shape, at: usize) -> String {
-    let floats: Vec<String> = (at..at + shape.floats()).map(|index| format!("inputs[input + {index}u]")).collect();
+    let floats: Vec<String> = (at..at + shape.floats())
+        .map(|index| format!("inputs[input + {index}u]"))
+        .collect();
     match shape {
         Shape::F32 => floats[0].clone(),
         Shape::U32 => format!("u32({})", floats[0]),
@@ -53,7 +58,11 @@ fn argument(shape: Shape, at: usize) -> String {
 fn write_outputs(text: &mut String, fields: &[Field]) {
     let mut at = 0;
     for field in fields {
-        let value = if fields.len() == 1 { "result".to_owned() } else { format!("result.{}", field.name) };
+        let value = if fields.len() == 1 {
+            "result".to_owned()
+        } else {
+            format!("result.{}", field.name)
+        };
         for component in components(field.shape, &value) {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "outputs[output + {at}u] = {component};");
@@ -63,8 +72,17 @@ fn write_outputs(text: &mut String, fields: &[Field]) {
 }
 
 fn components(shape: Shape, value: &str) -> Vec<String> {
-    let vector = |n: usize| ["x", "y", "z", "w"][..n].iter().map(|c| format!("{value}.{c}")).collect();
-    let matrix = |n: usize| (0..n * n).map(|i| format!("{value}[{}][{}]", i / n, i % n)).collect();
+    let vector = |n: usize| {
+        ["x", "y", "z", "w"][..n]
+            .iter()
+            .map(|c| format!("{value}.{c}"))
+            .collect()
+    };
+    let matrix = |n: usize| {
+        (0..n * n)
+            .map(|i| format!("{value}[{}][{}]", i / n, i % n))
+            .collect()
+    };
     match shape {
         Shape::F32 => vec![value.to_owned()],
         Shape::U32 | Shape::I32 => vec![format!("f32({value})")],

@@ -34,21 +34,35 @@ pub(crate) struct Imported {
 
 impl Source {
     pub(crate) fn parse(file: &str, text: &str) -> Result<Self, Error> {
-        let syntax = text.parse::<TranslationUnit>().map_err(|error| {
-            SourceError::at(error.error.to_string(), file, text, error.span.range())
-        })?;
-        Ok(Source { file: file.to_owned(), text: text.to_owned(), code: without_comments(text), syntax })
+        let syntax = text
+            .parse::<TranslationUnit>()
+            .map_err(|error| SourceError::at(error.error.to_string(), file, text, error.span.range()))?;
+        Ok(Source {
+            file: file.to_owned(),
+            text: text.to_owned(),
+            code: without_comments(text),
+            syntax,
+        })
     }
 
     /// The names of its module-scope declarations.
     pub(crate) fn declared(&self) -> impl Iterator<Item = String> {
-        self.syntax.global_declarations.iter().filter_map(|declaration| declared_name(declaration.node()))
+        self.syntax
+            .global_declarations
+            .iter()
+            .filter_map(|declaration| declared_name(declaration.node()))
     }
 
     /// The names of its functions, in order.
     pub(crate) fn functions(&self) -> Vec<String> {
-        let functions = self.syntax.global_declarations.iter().filter(|it| matches!(it.node(), GlobalDeclaration::Function(_)));
-        functions.filter_map(|declaration| declared_name(declaration.node())).collect()
+        let functions = self
+            .syntax
+            .global_declarations
+            .iter()
+            .filter(|it| matches!(it.node(), GlobalDeclaration::Function(_)));
+        functions
+            .filter_map(|declaration| declared_name(declaration.node()))
+            .collect()
     }
 
     /// What it imports, with paths made absolute from `here`.
@@ -67,8 +81,15 @@ impl Source {
     pub(crate) fn locals(&self) -> Vec<String> {
         let mut names = Vec::new();
         for declaration in &self.syntax.global_declarations {
-            let GlobalDeclaration::Function(function) = declaration.node() else { continue };
-            names.extend(function.parameters.iter().map(|parameter| parameter.ident.to_string()));
+            let GlobalDeclaration::Function(function) = declaration.node() else {
+                continue;
+            };
+            names.extend(
+                function
+                    .parameters
+                    .iter()
+                    .map(|parameter| parameter.ident.to_string()),
+            );
             for statement in features::statements(&function.body) {
                 if let Statement::Declaration(local) = statement {
                     names.push(local.ident.to_string());
@@ -130,11 +151,19 @@ pub(crate) fn declared_name(declaration: &GlobalDeclaration) -> Option<String> {
 fn flatten(content: &ImportContent, module: ModulePath, found: &mut Vec<Imported>) {
     match content {
         ImportContent::Item(item) => {
-            found.push(Imported { module, item: item.ident.to_string(), renamed: item.rename.is_some() });
+            found.push(Imported {
+                module,
+                item: item.ident.to_string(),
+                renamed: item.rename.is_some(),
+            });
         }
         ImportContent::Collection(imports) => {
             for import in imports {
-                flatten(&import.content, module.clone().join(import.path.iter().cloned()), found);
+                flatten(
+                    &import.content,
+                    module.clone().join(import.path.iter().cloned()),
+                    found,
+                );
             }
         }
     }
@@ -142,11 +171,17 @@ fn flatten(content: &ImportContent, module: ModulePath, found: &mut Vec<Imported
 
 /// `import {foo::bar, …}`: the first word of each is a package.
 fn flatten_packages(content: &ImportContent, found: &mut Vec<Imported>) {
-    let ImportContent::Collection(imports) = content else { return };
+    let ImportContent::Collection(imports) = content else {
+        return;
+    };
     for Import { path, content } in imports {
         let mut components = path.iter().cloned();
         if let Some(package) = components.next() {
-            flatten(content, ModulePath::new(PathOrigin::Package(package), components.collect()), found);
+            flatten(
+                content,
+                ModulePath::new(PathOrigin::Package(package), components.collect()),
+                found,
+            );
         }
     }
 }
@@ -159,7 +194,10 @@ fn without_comments(text: &str) -> String {
     while at < bytes.len() {
         let pair = &bytes[at..bytes.len().min(at + 2)];
         let length = match pair {
-            b"//" if depth == 0 => bytes[at..].iter().position(|b| *b == b'\n').unwrap_or(bytes.len() - at),
+            b"//" if depth == 0 => bytes[at..]
+                .iter()
+                .position(|b| *b == b'\n')
+                .unwrap_or(bytes.len() - at),
             b"/*" => {
                 depth += 1;
                 2
@@ -173,7 +211,10 @@ fn without_comments(text: &str) -> String {
             _ => 1,
         };
         if depth > 0 || pair == b"//" {
-            code[at..at + length].iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
+            code[at..at + length]
+                .iter_mut()
+                .filter(|b| **b != b'\n')
+                .for_each(|b| *b = b' ');
         }
         at += length;
     }
@@ -186,7 +227,9 @@ fn import_statements(code: &str) -> Vec<Range<usize>> {
     let mut from = 0;
     while let Some(start) = find_word(&code[from..], "import") {
         let start = from + start;
-        let end = code[start..].find(';').map_or(code.len(), |length| start + length + 1);
+        let end = code[start..]
+            .find(';')
+            .map_or(code.len(), |length| start + length + 1);
         found.push(start..end);
         from = end;
     }
@@ -214,7 +257,10 @@ mod tests {
         let text = "a // import x;\nb /* c /* d */ ö\n */ e / f";
         let code = without_comments(text);
         assert_eq!(code.len(), text.len());
-        assert_eq!(code.split_whitespace().collect::<Vec<_>>(), ["a", "b", "e", "/", "f"]);
+        assert_eq!(
+            code.split_whitespace().collect::<Vec<_>>(),
+            ["a", "b", "e", "/", "f"]
+        );
         assert_eq!(code.matches('\n').count(), 2);
     }
 
@@ -226,9 +272,14 @@ mod tests {
 
     #[test]
     fn inline_paths_give_their_last_name() -> Result<(), crate::Error> {
-        let text = "import package::a::b;\n// c::d\nfn f() -> f32 { return package::lib::shapes::area(1.0); }";
+        let text =
+            "import package::a::b;\n// c::d\nfn f() -> f32 { return package::lib::shapes::area(1.0); }";
         let source = Source::parse("x.wesl", text)?;
-        let names: Vec<String> = source.inline_path_items().into_iter().map(|(name, _)| name).collect();
+        let names: Vec<String> = source
+            .inline_path_items()
+            .into_iter()
+            .map(|(name, _)| name)
+            .collect();
         assert_eq!(names, ["area"]);
         Ok(())
     }

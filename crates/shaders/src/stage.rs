@@ -4,7 +4,9 @@
 
 use std::collections::BTreeSet;
 
-use crate::feature_set::{Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform};
+use crate::feature_set::{
+    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform,
+};
 
 /// A stage of the surface shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -93,11 +95,21 @@ impl FeatureSet {
     #[must_use]
     pub fn reachable() -> Vec<FeatureSet> {
         let mut sets = BTreeSet::new();
-        for relief in [Relief::None, Relief::ParallaxOffset, Relief::ParallaxOffsetLimited] {
+        for relief in [
+            Relief::None,
+            Relief::ParallaxOffset,
+            Relief::ParallaxOffsetLimited,
+        ] {
             for normal in [NormalSource::Geometric, NormalSource::Map] {
                 for lights in [Lights::None, Lights::Directional, Lights::Point, Lights::Many] {
                     for albedo in [Albedo::Constant, Albedo::Map] {
-                        let set = FeatureSet { relief, normal, lights, albedo, ..FeatureSet::default() };
+                        let set = FeatureSet {
+                            relief,
+                            normal,
+                            lights,
+                            albedo,
+                            ..FeatureSet::default()
+                        };
                         vary_the_rest(set, &mut sets);
                     }
                 }
@@ -114,9 +126,17 @@ fn vary_the_rest(set: FeatureSet, sets: &mut BTreeSet<FeatureSet>) {
             FeatureSet {
                 specular: bit(0),
                 alpha: if bit(1) { Alpha::Mask } else { Alpha::Opaque },
-                transform: if bit(2) { Transform::General } else { Transform::Rigid },
+                transform: if bit(2) {
+                    Transform::General
+                } else {
+                    Transform::Rigid
+                },
                 mirrored_uv: bit(3),
-                space: if bit(4) { LightingSpace::Object } else { LightingSpace::World },
+                space: if bit(4) {
+                    LightingSpace::Object
+                } else {
+                    LightingSpace::World
+                },
                 form: if bit(5) { Form::Published } else { Form::Hardened },
                 ..set
             }

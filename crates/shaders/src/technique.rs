@@ -31,10 +31,30 @@ const HEIGHT_MAPS: &str = "Normal Maps und Height Maps (OpenGL tutorials)";
 
 /// Every technique, sorted by name.
 pub const TECHNIQUES: &[Technique] = &[
-    Technique { id: "blinn_phong", files: &["techniques/blinn_phong.wesl"], forms: BOTH, source: PARALLAX_BUMP },
-    Technique { id: "codec_biased", files: &["techniques/codec_biased.wesl"], forms: BOTH, source: HEIGHT_MAPS },
-    Technique { id: "codec_unorm", files: &["techniques/codec_unorm.wesl"], forms: HARDENED, source: HEIGHT_MAPS },
-    Technique { id: "dot3", files: &["techniques/dot3.wesl"], forms: BOTH, source: DOT3 },
+    Technique {
+        id: "blinn_phong",
+        files: &["techniques/blinn_phong.wesl"],
+        forms: BOTH,
+        source: PARALLAX_BUMP,
+    },
+    Technique {
+        id: "codec_biased",
+        files: &["techniques/codec_biased.wesl"],
+        forms: BOTH,
+        source: HEIGHT_MAPS,
+    },
+    Technique {
+        id: "codec_unorm",
+        files: &["techniques/codec_unorm.wesl"],
+        forms: HARDENED,
+        source: HEIGHT_MAPS,
+    },
+    Technique {
+        id: "dot3",
+        files: &["techniques/dot3.wesl"],
+        forms: BOTH,
+        source: DOT3,
+    },
     Technique {
         id: "frame_from_uv",
         files: &["techniques/frame_from_uv.wesl", "entry/frame_from_uv.wesl"],
@@ -55,13 +75,31 @@ pub const TECHNIQUES: &[Technique] = &[
     },
     Technique {
         id: "height_to_normal_forward",
-        files: &["techniques/height_to_normal_forward.wesl", "entry/height_to_normal_forward.wesl"],
+        files: &[
+            "techniques/height_to_normal_forward.wesl",
+            "entry/height_to_normal_forward.wesl",
+        ],
         forms: BOTH,
         source: HEIGHT_MAPS,
     },
-    Technique { id: "light_to_tangent", files: &["techniques/light_to_tangent.wesl"], forms: HARDENED, source: PARALLAX_BUMP },
-    Technique { id: "normal_transform", files: &["techniques/normal_transform.wesl"], forms: BOTH, source: PARALLAX_BUMP },
-    Technique { id: "parallax_offset", files: &["techniques/parallax_offset.wesl"], forms: BOTH, source: PARALLAX_BUMP },
+    Technique {
+        id: "light_to_tangent",
+        files: &["techniques/light_to_tangent.wesl"],
+        forms: HARDENED,
+        source: PARALLAX_BUMP,
+    },
+    Technique {
+        id: "normal_transform",
+        files: &["techniques/normal_transform.wesl"],
+        forms: BOTH,
+        source: PARALLAX_BUMP,
+    },
+    Technique {
+        id: "parallax_offset",
+        files: &["techniques/parallax_offset.wesl"],
+        forms: BOTH,
+        source: PARALLAX_BUMP,
+    },
     Technique {
         id: "parallax_offset_limited",
         files: &["techniques/parallax_offset_limited.wesl"],

@@ -33,31 +33,72 @@ impl Library {
     ///
     /// # Errors
     /// As [`Library::assemble_user_file`].
-    pub fn assemble_user_file_with(&self, path: &Path, given: &BTreeMap<String, bool>) -> Result<AssembledShader> {
+    pub fn assemble_user_file_with(
+        &self,
+        path: &Path,
+        given: &BTreeMap<String, bool>,
+    ) -> Result<AssembledShader> {
         let root = ModulePath::new(PathOrigin::Absolute, vec![stem(path)]);
         let sources = self.user_sources(path, &root)?;
-        let known: Vec<&str> = given.keys().map(String::as_str).chain(features::KNOWN.iter().copied()).collect();
+        let known: Vec<&str> = given
+            .keys()
+            .map(String::as_str)
+            .chain(features::KNOWN.iter().copied())
+            .collect();
         for (key, source) in &sources {
-            let names: &[&str] = if key.starts_with(LIBRARY) { features::KNOWN } else { &known };
+            let names: &[&str] = if key.starts_with(LIBRARY) {
+                features::KNOWN
+            } else {
+                &known
+            };
             check::features_known(source, names)?;
         }
         let renames = renames(&sources, &root);
-        let on: Vec<&str> = given.iter().filter(|(_, on)| **on).map(|(name, _)| name.as_str()).collect();
-        let trees: Trees = sources.iter().map(|(key, source)| (key.clone(), source.syntax.clone())).collect();
+        let on: Vec<&str> = given
+            .iter()
+            .filter(|(_, on)| **on)
+            .map(|(name, _)| name.as_str())
+            .collect();
+        let trees: Trees = sources
+            .iter()
+            .map(|(key, source)| (key.clone(), source.syntax.clone()))
+            .collect();
         let features = assemble::features(known.iter().copied(), &on);
-        let job = Job { root, keep: None, features, renames: &renames };
-        let assembled = assemble::assemble(&Modules { sources: &sources, trees: &trees }, &job)?;
-        Ok(AssembledShader { name: file_safe(&stem(path)), wgsl: assembled.wgsl, features: Vec::new(), modules: assembled.modules })
+        let job = Job {
+            root,
+            keep: None,
+            features,
+            renames: &renames,
+        };
+        let assembled = assemble::assemble(
+            &Modules {
+                sources: &sources,
+                trees: &trees,
+            },
+            &job,
+        )?;
+        Ok(AssembledShader {
+            name: file_safe(&stem(path)),
+            wgsl: assembled.wgsl,
+            features: Vec::new(),
+            modules: assembled.modules,
+        })
     }
 
     /// The file and everything it imports, by absolute module path.
     fn user_sources(&self, path: &Path, root: &ModulePath) -> Result<Sources> {
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut sources = Sources::new();
-        sources.insert(root.to_string(), Source::parse(&path.display().to_string(), &read::text(path)?)?);
+        sources.insert(
+            root.to_string(),
+            Source::parse(&path.display().to_string(), &read::text(path)?)?,
+        );
         let mut todo = vec![root.clone()];
         while let Some(here) = todo.pop() {
-            let imports = sources.get(&here.to_string()).map(|source| source.imports(&here)).unwrap_or_default();
+            let imports = sources
+                .get(&here.to_string())
+                .map(|source| source.imports(&here))
+                .unwrap_or_default();
             for import in imports {
                 if sources.contains_key(&import.module.to_string()) {
                     continue;
@@ -79,7 +120,9 @@ impl Library {
         match &module.origin {
             PathOrigin::Package(package) if package == LIBRARY => {
                 let here = ModulePath::new(PathOrigin::Absolute, module.components.clone());
-                let Some(source) = self.sources().get(&here.to_string()) else { return Ok(None) };
+                let Some(source) = self.sources().get(&here.to_string()) else {
+                    return Ok(None);
+                };
                 // Parsed anew: renaming must not touch the library's own tree.
                 Source::parse(&format!("{LIBRARY}:{}", source.file), &source.text).map(Some)
             }
@@ -91,7 +134,8 @@ impl Library {
                     // `with_extension` would cut a dot inside of the name off.
                     let candidate = file.with_file_name(format!("{}.{extension}", stem_of_module(module)));
                     if candidate.is_file() {
-                        return Source::parse(&candidate.display().to_string(), &read::text(&candidate)?).map(Some);
+                        return Source::parse(&candidate.display().to_string(), &read::text(&candidate)?)
+                            .map(Some);
                     }
                 }
                 Ok(None)
@@ -110,7 +154,10 @@ fn renames(sources: &Sources, root: &ModulePath) -> BTreeMap<(String, String), S
     }
     let mut taken: BTreeSet<String> = holders.keys().cloned().collect();
     taken.extend(sources.values().flat_map(Source::locals));
-    let captured: BTreeSet<String> = sources.values().flat_map(|source| check::captured(source, root)).collect();
+    let captured: BTreeSet<String> = sources
+        .values()
+        .flat_map(|source| check::captured(source, root))
+        .collect();
     let mut renames = BTreeMap::new();
     for (name, keys) in &holders {
         for key in keys.iter().filter(|key| **key != &root.to_string()) {
@@ -128,11 +175,16 @@ fn unused(key: &str, name: &str, taken: &BTreeSet<String>) -> String {
     let module = key.rsplit("::").next().unwrap_or(key);
     let base = format!("{module}_{name}");
     let numbered = (2_u32..).map(|number| format!("{base}_{number}"));
-    std::iter::once(base.clone()).chain(numbered).find(|candidate| !taken.contains(candidate)).unwrap_or(base)
+    std::iter::once(base.clone())
+        .chain(numbered)
+        .find(|candidate| !taken.contains(candidate))
+        .unwrap_or(base)
 }
 
 fn stem(path: &Path) -> String {
-    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_else(|| "shader".to_owned())
+    path.file_stem()
+        .map(|stem| stem.to_string_lossy().into_owned())
+        .unwrap_or_else(|| "shader".to_owned())
 }
 
 fn stem_of_module(module: &ModulePath) -> String {
@@ -141,6 +193,12 @@ fn stem_of_module(module: &ModulePath) -> String {
 
 /// Letters, digits, `_` and `-` only.
 fn file_safe(name: &str) -> String {
-    let safe = |c: char| if c.is_ascii_alphanumeric() || c == '_' || c == '-' { c } else { '_' };
+    let safe = |c: char| {
+        if c.is_ascii_alphanumeric() || c == '_' || c == '-' {
+            c
+        } else {
+            '_'
+        }
+    };
     name.chars().map(safe).collect()
 }

@@ -9,11 +9,27 @@ use bossage_shaders::{AssembledShader, FeatureSet, Kernel, Library, PROBES, Resu
 const MOST_MODULES: usize = 1000;
 
 fn validate(shader: &AssembledShader) -> std::result::Result<naga::Module, String> {
-    let module = naga::front::wgsl::parse_str(&shader.wgsl)
-        .map_err(|error| format!("{}\n{}\n{}", shader.name, error.emit_to_string(&shader.wgsl), shader.wgsl))?;
-    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::default())
-        .validate(&module)
-        .map_err(|error| format!("{}\n{}\n{}", shader.name, error.emit_to_string(&shader.wgsl), shader.wgsl))?;
+    let module = naga::front::wgsl::parse_str(&shader.wgsl).map_err(|error| {
+        format!(
+            "{}\n{}\n{}",
+            shader.name,
+            error.emit_to_string(&shader.wgsl),
+            shader.wgsl
+        )
+    })?;
+    naga::valid::Validator::new(
+        naga::valid::ValidationFlags::all(),
+        naga::valid::Capabilities::default(),
+    )
+    .validate(&module)
+    .map_err(|error| {
+        format!(
+            "{}\n{}\n{}",
+            shader.name,
+            error.emit_to_string(&shader.wgsl),
+            shader.wgsl
+        )
+    })?;
     Ok(module)
 }
 
@@ -78,8 +94,13 @@ fn every_kernel_is_valid_and_has_its_entry() -> Result<()> {
     for kernel in Kernel::ALL {
         let shader = library.assemble_kernel(kernel)?;
         let module = validate(&shader).unwrap_or_else(|message| panic!("{message}"));
-        let [entry] = &module.entry_points[..] else { panic!("{} has not one entry point", shader.name) };
-        assert_eq!((entry.name.as_str(), entry.workgroup_size), (kernel.entry(), kernel.workgroup_size()));
+        let [entry] = &module.entry_points[..] else {
+            panic!("{} has not one entry point", shader.name)
+        };
+        assert_eq!(
+            (entry.name.as_str(), entry.workgroup_size),
+            (kernel.entry(), kernel.workgroup_size())
+        );
     }
     Ok(())
 }
@@ -90,8 +111,13 @@ fn every_probe_is_valid_and_has_its_entry() -> Result<()> {
     for probe in PROBES {
         let shader = library.assemble_probe(probe.id)?;
         let module = validate(&shader).unwrap_or_else(|message| panic!("{message}"));
-        let [entry] = &module.entry_points[..] else { panic!("{} has not one entry point", shader.name) };
-        assert_eq!((entry.name.as_str(), entry.workgroup_size), (probe.entry, [64, 1, 1]));
+        let [entry] = &module.entry_points[..] else {
+            panic!("{} has not one entry point", shader.name)
+        };
+        assert_eq!(
+            (entry.name.as_str(), entry.workgroup_size),
+            (probe.entry, [64, 1, 1])
+        );
     }
     Ok(())
 }
