@@ -14,6 +14,8 @@
 //! alpha = trunc(h(x, y)*255 + 0.5)
 //! (k, o) = (127.5, 128) for codec_unorm, (127, 128.5) for codec_biased: the nearest byte
 //! ```
+//! [`Kernel::Forward`] reads h(x, y) in the place of h(x-1, y) and h(x, y-1), and leaves out the factor 0.5.
+//!
 //! No clamp is needed: |n| ≤ 1 + 3·2⁻²⁴, so the sums stay in [0.49, 255.6]. Slopes beyond [`MAX_SLOPE`] are refused, so that
 //! q cannot overflow.
 
@@ -32,6 +34,8 @@ pub enum Kernel {
     /// (h(x+1) − h(x−1))/2: second order.
     #[default]
     Central,
+    /// h(x+1) − h(x): first order. The hardened form of `height_to_normal_forward`: true neighbours, axes in order.
+    Forward,
 }
 
 /// What to bake.
@@ -43,7 +47,8 @@ pub struct Bake {
     pub edge: EdgeMode,
     /// How components become bytes.
     pub codec: NormalCodec,
-    /// Slope along u and along v for a height difference of 1 between the two neighbours: `scale·side/2`.
+    /// Slope along u and along v for a height difference of 1 between the two texels that are read: `scale·side/2`
+    /// for [`Kernel::Central`], `scale·side` for [`Kernel::Forward`].
     pub slope: [f32; 2],
 }
 
@@ -59,9 +64,33 @@ impl Bake {
         edge: EdgeMode,
         codec: NormalCodec,
     ) -> Result<Self, Error> {
+        Self::differences(Kernel::Central, 0.5, field, height_scale, edge, codec)
+    }
+
+    /// Forward differences; the rest as [`Bake::central`].
+    ///
+    /// # Errors
+    /// [`Error::Parameter`] when a scale is not finite or too steep.
+    pub fn forward(
+        field: &HeightField,
+        height_scale: [f32; 2],
+        edge: EdgeMode,
+        codec: NormalCodec,
+    ) -> Result<Self, Error> {
+        Self::differences(Kernel::Forward, 1.0, field, height_scale, edge, codec)
+    }
+
+    fn differences(
+        kernel: Kernel,
+        share: f32,
+        field: &HeightField,
+        height_scale: [f32; 2],
+        edge: EdgeMode,
+        codec: NormalCodec,
+    ) -> Result<Self, Error> {
         let slope = [
-            (height_scale[0] * field.width as f32) * 0.5,
-            (height_scale[1] * field.height as f32) * 0.5,
+            (height_scale[0] * field.width as f32) * share,
+            (height_scale[1] * field.height as f32) * share,
         ];
         match slope.iter().find(|s| !s.is_finite() || s.abs() > MAX_SLOPE) {
             Some(s) => Err(Error::Parameter {
@@ -70,7 +99,7 @@ impl Bake {
                 expected: "finite and at most 1e9",
             }),
             None => Ok(Bake {
-                kernel: Kernel::Central,
+                kernel,
                 edge,
                 codec,
                 slope,
@@ -135,7 +164,8 @@ pub fn bake_into(field: &HeightField, bake: &Bake, texels: &mut [[u8; 4]]) -> Re
                 below: row_at(y + 1),
             };
             match bake.kernel {
-                Kernel::Central => central_row(out, &rows, bake),
+                Kernel::Central => difference_row(out, &rows, bake, 0),
+                Kernel::Forward => difference_row(out, &rows, bake, 1),
             }
         });
     Ok(())
@@ -148,27 +178,30 @@ struct Rows<'a> {
     below: &'a [f32],
 }
 
-fn central_row(out: &mut [[u8; 4]], rows: &Rows<'_>, bake: &Bake) {
+/// Difference kernels of two texels an axis: central ones take their first texel before, forward ones here.
+fn difference_row(out: &mut [[u8; 4]], rows: &Rows<'_>, bake: &Bake, first: usize) {
     let encoder = Encoder {
         slope: bake.slope,
         byte: bake.byte_scale_offset(),
     };
-    let width = out.len();
+    let (width, mid) = (out.len(), rows.mid);
+    let before = if first == 0 { rows.above } else { mid };
     let border = |x: usize| {
-        let column = |i: i64| rows.mid[bake.edge.resolve(i, width as u32) as usize];
-        let (left, right) = (column(x as i64 - 1), column(x as i64 + 1));
-        encoder.texel(right - left, rows.below[x] - rows.above[x], rows.mid[x])
+        let column = |i: i64| mid[bake.edge.resolve(i, width as u32) as usize];
+        let (left, right) = (column((x + first) as i64 - 1), column(x as i64 + 1));
+        encoder.texel(right - left, rows.below[x] - before[x], mid[x])
     };
     out[0] = border(0);
     out[width - 1] = border(width - 1);
     if width > 2 {
         let inner = 1..width - 1;
-        encoder.interior(
-            &mut out[inner.clone()],
-            rows.mid,
-            &rows.above[inner.clone()],
-            &rows.below[inner],
-        );
+        let across = [
+            &mid[first..],
+            &mid[2..],
+            &before[inner.clone()],
+            &rows.below[inner.clone()],
+        ];
+        encoder.interior(&mut out[inner.clone()], &mid[inner], across);
     }
 }
 
@@ -180,12 +213,12 @@ struct Encoder {
 
 impl Encoder {
     /// The hot loop: equal-length slices, no branches, no bounds checks, so that it becomes vector code.
-    fn interior(self, out: &mut [[u8; 4]], mid: &[f32], above: &[f32], below: &[f32]) {
+    fn interior(self, out: &mut [[u8; 4]], here: &[f32], [left, right, before, after]: [&[f32]; 4]) {
         let n = out.len();
-        let (left, here, right) = (&mid[..n], &mid[1..][..n], &mid[2..][..n]);
-        let (above, below) = (&above[..n], &below[..n]);
+        let (left, here, right) = (&left[..n], &here[..n], &right[..n]);
+        let (before, after) = (&before[..n], &after[..n]);
         for x in 0..n {
-            out[x] = self.texel(right[x] - left[x], below[x] - above[x], here[x]);
+            out[x] = self.texel(right[x] - left[x], after[x] - before[x], here[x]);
         }
     }
 

@@ -11,6 +11,9 @@
 //! - one-sided differences: the error falls only with the first power of the sampling distance;
 //! - `codec_biased` with truncation, and 8-bit heights.
 //!
+//! The hardened form (axes in order, true neighbours, rounding to nearest) is
+//! [`Kernel::Forward`](crate::height_to_normal::Kernel::Forward) of the general bake.
+//!
 //! Operation order in f32, the same in the compute kernel (every line one rounding after another, nothing contracted):
 //! ```text
 //! H = trunc(h*255 + 0.5)                 (as a float)

@@ -1,25 +1,24 @@
 //! Length and direction of vectors whose squares leave the range of f32.
 //!
 //! The cross product of edges of 1e-12 or 1e12 is an ordinary number, its square is 0 or infinite. Dividing by the largest
-//! component first costs one division and keeps every length in [1, √3]. Vectors with a subnormal largest component
-//! have lost digits already; what is left of their direction is what they get.
+//! component first costs one division and keeps every length in [1, √3]. Vectors whose largest component is
+//! subnormal count as zero: their digits are lost, and GPUs may flush them, so the shader twins do the same.
 
 use glam::Vec3;
 
-/// |v|; infinite or NaN where a component is.
+/// |v|; NaN where a component is not finite.
 pub(crate) fn length(v: Vec3) -> f32 {
     let largest = v.abs().max_element();
-    if largest > 0.0 {
-        (v / largest).length() * largest
-    } else {
-        v.length()
+    if largest < f32::MIN_POSITIVE {
+        return 0.0;
     }
+    (v / largest).length() * largest
 }
 
 /// v/|v|, or nothing for the zero vector and where a component is not finite.
 pub(crate) fn direction(v: Vec3) -> Option<Vec3> {
     let largest = v.abs().max_element();
-    (v.is_finite() && largest > 0.0).then(|| (v / largest).normalize())
+    (v.is_finite() && largest >= f32::MIN_POSITIVE).then(|| (v / largest).normalize())
 }
 
 #[cfg(test)]
@@ -32,6 +31,7 @@ mod tests {
     fn what_has_no_direction_gets_none() {
         for v in [
             Vec3::ZERO,
+            Vec3::splat(f32::MIN_POSITIVE / 2.0),
             -Vec3::ZERO,
             Vec3::new(0.0, f32::NAN, 1.0),
             Vec3::new(f32::INFINITY, 1.0, 0.0),

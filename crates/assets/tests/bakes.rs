@@ -297,3 +297,23 @@ fn baking_into_the_wrong_number_of_texels_is_refused() {
     height_to_normal::bake_into(&field, &bake, &mut texels).unwrap();
     assert_eq!(texels, height_to_normal::bake(&field, &bake).texels);
 }
+
+proptest! {
+    #[test]
+    fn hardened_forward_differences_follow_their_formula(field in fields(), scale in 0.0f32..0.5) {
+        for (edge, codec) in EDGES.into_iter().flat_map(|e| CODECS.map(|c| (e, c))) {
+            let bake = Bake::forward(&field, [scale; 2], edge, codec).unwrap();
+            let map = height_to_normal::bake(&field, &bake);
+            for (x, y) in (0..field.height).flat_map(|y| (0..field.width).map(move |x| (x, y))) {
+                let h = |dx: i64, dy: i64| {
+                    let (i, j) = (i64::from(x) + dx, i64::from(y) + dy);
+                    f64::from(field.texel(edge.resolve(i, field.width), edge.resolve(j, field.height)))
+                };
+                let gx = (h(1, 0) - h(0, 0)) * f64::from(scale) * f64::from(field.width);
+                let gy = (h(0, 1) - h(0, 0)) * f64::from(scale) * f64::from(field.height);
+                let error = map.decode(x, y).as_dvec3() - DVec3::new(-gx, -gy, 1.0).normalize();
+                prop_assert!(error.abs().max_element() <= bound(codec), "({x}, {y}) {edge:?} {codec:?}: {error}");
+            }
+        }
+    }
+}
