@@ -80,9 +80,10 @@ impl Matrices {
     pub fn light_vector(&self, space: LightingSpace, light: &Light) -> [f64; 4] {
         let (vector, w) = match (light.kind, space) {
             (LightKind::Directional { direction }, LightingSpace::World) => (-direction, 0.0),
-            (LightKind::Directional { direction }, LightingSpace::Object) => {
-                (self.local_from_world.transform_vector3(-direction).normalize(), 0.0)
-            }
+            (LightKind::Directional { direction }, LightingSpace::Object) => (
+                self.local_from_world.transform_vector3(-direction).normalize(),
+                0.0,
+            ),
             (LightKind::Point { position }, space) => (self.point(space, position), 1.0),
         };
         vector.extend(w).to_array()
@@ -90,7 +91,11 @@ impl Matrices {
 }
 
 fn cofactor(m: DMat3) -> DMat3 {
-    DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis))
+    DMat3::from_cols(
+        m.y_axis.cross(m.z_axis),
+        m.z_axis.cross(m.x_axis),
+        m.x_axis.cross(m.y_axis),
+    )
 }
 
 #[cfg(test)]
@@ -101,7 +106,15 @@ mod tests {
 
     fn camera() -> Camera {
         let (position, target) = (DVec3::new(0.0, 0.0, 4.0), DVec3::ZERO);
-        Camera { position, target, up: DVec3::Y, fov_deg: 90.0, near: 1.0, far: 9.0, size: [200, 100] }
+        Camera {
+            position,
+            target,
+            up: DVec3::Y,
+            fov_deg: 90.0,
+            near: 1.0,
+            far: 9.0,
+            size: [200, 100],
+        }
     }
 
     #[test]

@@ -32,10 +32,22 @@ pub struct Choice {
 /// Chooses among candidates given in order of cost, cheapest first. `None` if there are none.
 pub(crate) fn choose(candidates: &[Candidate], budget_px: f64) -> Option<Choice> {
     let fits = |candidate: &&Candidate| candidate.error.px_p99 <= budget_px;
-    let least = || candidates.iter().min_by(|a, b| a.error.px_p99.total_cmp(&b.error.px_p99));
+    let least = || {
+        candidates
+            .iter()
+            .min_by(|a, b| a.error.px_p99.total_cmp(&b.error.px_p99))
+    };
     let chosen = *candidates.iter().find(fits).or_else(least)?;
-    let others = candidates.iter().filter(|other| other.technique != chosen.technique).copied().collect();
-    Some(Choice { chosen, meets_budget: fits(&&chosen), others })
+    let others = candidates
+        .iter()
+        .filter(|other| other.technique != chosen.technique)
+        .copied()
+        .collect();
+    Some(Choice {
+        chosen,
+        meets_budget: fits(&&chosen),
+        others,
+    })
 }
 
 #[cfg(test)]
@@ -44,13 +56,24 @@ mod tests {
     use crate::predict::Error;
 
     fn candidate(technique: &'static str, px_p99: f64) -> Candidate {
-        Candidate { technique, error: Error { texels_p99: 2.0 * px_p99, px_p99 } }
+        Candidate {
+            technique,
+            error: Error {
+                texels_p99: 2.0 * px_p99,
+                px_p99,
+            },
+        }
     }
 
     #[test]
     fn cheapest_that_fits_then_least_error() {
-        let candidates = [candidate("cheap", 2.0), candidate("middle", 0.5), candidate("dear", 0.1)];
-        let at = |budget| choose(&candidates, budget).map(|choice| (choice.chosen.technique, choice.meets_budget));
+        let candidates = [
+            candidate("cheap", 2.0),
+            candidate("middle", 0.5),
+            candidate("dear", 0.1),
+        ];
+        let at =
+            |budget| choose(&candidates, budget).map(|choice| (choice.chosen.technique, choice.meets_budget));
         assert_eq!(at(3.0), Some(("cheap", true)));
         assert_eq!(at(0.5), Some(("middle", true)));
         assert_eq!(at(0.05), Some(("dear", false)));

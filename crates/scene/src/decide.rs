@@ -35,16 +35,29 @@ pub(crate) struct Decision {
 
 impl Decision {
     pub(crate) fn kept(reason: impl Into<String>, evidence: Evidence) -> Self {
-        Self { kept: true, reason: reason.into(), evidence }
+        Self {
+            kept: true,
+            reason: reason.into(),
+            evidence,
+        }
     }
 
     pub(crate) fn dropped(reason: impl Into<String>, evidence: Evidence) -> Self {
-        Self { kept: false, reason: reason.into(), evidence }
+        Self {
+            kept: false,
+            reason: reason.into(),
+            evidence,
+        }
     }
 
     fn into_effect(self, id: EffectId) -> Effect {
         let state = if self.kept { State::Kept } else { State::Dropped };
-        Effect { id, state, reason: self.reason, evidence: self.evidence }
+        Effect {
+            id,
+            state,
+            reason: self.reason,
+            evidence: self.evidence,
+        }
     }
 }
 
@@ -56,7 +69,13 @@ pub(crate) fn evidence<const N: usize>(facts: [(&'static str, Fact); N]) -> Evid
 /// Plans one material.
 pub(crate) fn material(scene: &Scene, views: &[View], index: usize) -> MaterialPlan {
     let material = &scene.materials[index];
-    let used = || scene.objects.iter().zip(views).filter(move |(object, _)| object.material == index);
+    let used = || {
+        scene
+            .objects
+            .iter()
+            .zip(views)
+            .filter(move |(object, _)| object.material == index)
+    };
     let subject = Subject {
         scene,
         material,
@@ -70,25 +89,46 @@ pub(crate) fn material(scene: &Scene, views: &[View], index: usize) -> MaterialP
 
 impl Subject<'_> {
     fn plan(&self) -> MaterialPlan {
-        let mut features =
-            FeatureSet { lights: self.lights(), form: self.material.form, space: self.material.lighting_space, ..FeatureSet::default() };
+        let mut features = FeatureSet {
+            lights: self.lights(),
+            form: self.material.form,
+            space: self.material.lighting_space,
+            ..FeatureSet::default()
+        };
         let lighting = self.lighting();
         let light_vector = self.light_vector(features.lights);
         let light_loop = self.light_loop();
         let specular = self.specular(lighting.kept);
         features.specular = specular.kept;
         let normal_map = self.normal_map(lighting.kept);
-        features.normal = if normal_map.kept { NormalSource::Map } else { NormalSource::Geometric };
+        features.normal = if normal_map.kept {
+            NormalSource::Map
+        } else {
+            NormalSource::Geometric
+        };
         let (alpha_discard, drawn) = self.alpha_discard();
-        features.alpha = if alpha_discard.kept { Alpha::Mask } else { Alpha::Opaque };
+        features.alpha = if alpha_discard.kept {
+            Alpha::Mask
+        } else {
+            Alpha::Opaque
+        };
         let albedo_map = self.albedo_map(lighting.kept, alpha_discard.kept);
-        features.albedo = if albedo_map.kept { Albedo::Map } else { Albedo::Constant };
+        features.albedo = if albedo_map.kept {
+            Albedo::Map
+        } else {
+            Albedo::Constant
+        };
         let relief = relief::decide(self, normal_map.kept || albedo_map.kept);
         features.relief = relief.technique;
         features.space = self.effective_space(&features);
         let cofactor = self.cofactor_matrix(&features);
-        features.transform = if cofactor.kept { Transform::General } else { Transform::Rigid };
-        features.mirrored_uv = features.has_tangent() && self.objects.iter().any(|object| has_mirrored_uv(&object.mesh));
+        features.transform = if cofactor.kept {
+            Transform::General
+        } else {
+            Transform::Rigid
+        };
+        features.mirrored_uv =
+            features.has_tangent() && self.objects.iter().any(|object| has_mirrored_uv(&object.mesh));
         let handedness = self.handedness(&features);
         let features = features.canonical();
         let effects = vec![
@@ -106,7 +146,11 @@ impl Subject<'_> {
         MaterialPlan {
             name: self.material.name.clone(),
             technique: relief::id(features.relief),
-            technique_by: if self.material.technique == TechniquePin::Auto { "auto" } else { "pinned" },
+            technique_by: if self.material.technique == TechniquePin::Auto {
+                "auto"
+            } else {
+                "pinned"
+            },
             permutation: features.name(),
             features,
             drawn,
@@ -119,7 +163,10 @@ impl Subject<'_> {
     }
 
     fn object_views(&self) -> Vec<ObjectView> {
-        let view = |(object, view): (&&Object, &&View)| ObjectView { name: object.name.clone(), footprint: view.footprint() };
+        let view = |(object, view): (&&Object, &&View)| ObjectView {
+            name: object.name.clone(),
+            footprint: view.footprint(),
+        };
         self.objects.iter().zip(&self.views).map(view).collect()
     }
 
@@ -129,7 +176,10 @@ impl Subject<'_> {
             notes.push("no object uses this material".to_owned());
         }
         if self.material.lighting_space == LightingSpace::Object && features.lights == Lights::Many {
-            notes.push("lighting_space = \"object\" is defined for one light; with several, world space is used".to_owned());
+            notes.push(
+                "lighting_space = \"object\" is defined for one light; with several, world space is used"
+                    .to_owned(),
+            );
         }
         notes
     }
@@ -151,16 +201,32 @@ impl Subject<'_> {
         match (active, all) {
             (0, 0) => Decision::dropped("the scene has no lights", facts),
             (0, _) => Decision::dropped("every light is black", facts),
-            _ => Decision::kept(format!("{active} of {all} light{} not black", if active == 1 { " is" } else { "s are" }), facts),
+            _ => Decision::kept(
+                format!(
+                    "{active} of {all} light{} not black",
+                    if active == 1 { " is" } else { "s are" }
+                ),
+                facts,
+            ),
         }
     }
 
     fn light_vector(&self, lights: Lights) -> Decision {
-        let points = self.active_lights.iter().filter(|light| matches!(light.kind, LightKind::Point { .. })).count();
-        let facts = evidence([("point_lights", count(points)), ("lights_not_black", count(self.active_lights.len()))]);
+        let points = self
+            .active_lights
+            .iter()
+            .filter(|light| matches!(light.kind, LightKind::Point { .. }))
+            .count();
+        let facts = evidence([
+            ("point_lights", count(points)),
+            ("lights_not_black", count(self.active_lights.len())),
+        ]);
         match lights {
             Lights::None => Decision::dropped("there is no light", facts),
-            Lights::Directional => Decision::dropped("one directional light: its vector is the same for every pixel", facts),
+            Lights::Directional => Decision::dropped(
+                "one directional light: its vector is the same for every pixel",
+                facts,
+            ),
             Lights::Point => Decision::kept("a point light's vector differs from pixel to pixel", facts),
             Lights::Many => Decision::kept("the loop over lights handles both kinds", facts),
         }
@@ -189,19 +255,27 @@ impl Subject<'_> {
     }
 
     fn normal_map(&self, lit: bool) -> Decision {
-        let Some(normal) = self.facts.normal else { return Decision::dropped("the material has none", Evidence::new()) };
+        let Some(normal) = self.facts.normal else {
+            return Decision::dropped("the material has none", Evidence::new());
+        };
         let facts = evidence([
             ("constant", Fact::Text(normal.constant.to_string())),
             ("first_normal", Fact::Numbers(normal.first.to_vec())),
             ("max_off_flat", Fact::Number(normal.max_off_flat)),
             ("codec_half_quantum", Fact::Number(normal.half_quantum)),
         ]);
-        if !lit {
+        if normal.is_flat() {
+            Decision::dropped(
+                "every normal is (0, 0, 1) as near as the codec can write it",
+                facts,
+            )
+        } else if !lit {
             Decision::dropped("there is no light for it to change", facts)
-        } else if normal.is_flat() {
-            Decision::dropped("every normal is (0, 0, 1) as near as the codec can write it", facts)
         } else if normal.constant {
-            Decision::kept("its normal is constant but tilted: dropping it would change the light", facts)
+            Decision::kept(
+                "its normal is constant but tilted: dropping it would change the light",
+                facts,
+            )
         } else {
             Decision::kept("its normals vary", facts)
         }
@@ -220,13 +294,29 @@ impl Subject<'_> {
             ("texels_below_cutoff", Fact::Number(alpha.below_cutoff)),
         ]);
         // Without a map nothing is filtered, and the comparison is the shader's own.
-        let margin = if self.material.albedo.map.is_some() { ALPHA_MARGIN } else { 0.0 };
-        if (alpha.alpha_max as f32) < (cutoff - margin) as f32 {
-            (Decision::dropped("every fragment would be discarded: nothing is drawn", facts), false)
-        } else if alpha.alpha_min as f32 >= (cutoff + margin) as f32 {
-            (Decision::dropped("no texel's alpha is below the cutoff", facts), true)
+        let margin = if self.material.albedo.map.is_some() {
+            ALPHA_MARGIN
         } else {
-            (Decision::kept("some texels are below the cutoff, or so near that filtering may be", facts), true)
+            0.0
+        };
+        if (alpha.alpha_max as f32) < (cutoff - margin) as f32 {
+            (
+                Decision::dropped("every fragment would be discarded: nothing is drawn", facts),
+                false,
+            )
+        } else if alpha.alpha_min as f32 >= (cutoff + margin) as f32 {
+            (
+                Decision::dropped("no texel's alpha is below the cutoff", facts),
+                true,
+            )
+        } else {
+            (
+                Decision::kept(
+                    "some texels are below the cutoff, or so near that filtering may be",
+                    facts,
+                ),
+                true,
+            )
         }
     }
 
@@ -238,7 +328,10 @@ impl Subject<'_> {
         let facts = evidence([
             ("constant_rgb", Fact::Text(albedo.constant_rgb.to_string())),
             ("constant_alpha", Fact::Text(albedo.constant_alpha.to_string())),
-            ("first_texel_linear", Fact::Numbers(albedo.first.to_array().to_vec())),
+            (
+                "first_texel_linear",
+                Fact::Numbers(albedo.first.to_array().to_vec()),
+            ),
         ]);
         let dark = !lit && self.scene.ambient.as_vec3() == glam::Vec3::ZERO;
         if masked {
@@ -275,19 +368,37 @@ impl Subject<'_> {
         if !features.has_normal() {
             Decision::dropped("no normal is used", facts)
         } else if features.space == LightingSpace::Object {
-            Decision::dropped("light and eye are brought to object space: normals stay where they are", facts)
+            Decision::dropped(
+                "light and eye are brought to object space: normals stay where they are",
+                facts,
+            )
         } else if features.form == Form::Published {
-            Decision::dropped("the published formula carries normals by the object's own matrix", facts)
+            Decision::dropped(
+                "the published formula carries normals by the object's own matrix",
+                facts,
+            )
         } else if !stretched.is_empty() {
             Decision::kept(format!("scale differs by axis: {}", stretched.join(", ")), facts)
         } else if features.has_tangent() && !mirrored.is_empty() {
-            Decision::kept(format!("mirrored, with a tangent frame: {}", mirrored.join(", ")), facts)
+            Decision::kept(
+                format!("mirrored, with a tangent frame: {}", mirrored.join(", ")),
+                facts,
+            )
         } else if features.has_tangent() && !scaled.is_empty() {
-            Decision::kept(format!("scaled, with a tangent frame that needs unit vectors: {}", scaled.join(", ")), facts)
+            Decision::kept(
+                format!(
+                    "scaled, with a tangent frame that needs unit vectors: {}",
+                    scaled.join(", ")
+                ),
+                facts,
+            )
         } else if scaled.is_empty() {
             Decision::dropped("every transform is rigid", facts)
         } else {
-            Decision::dropped("one scale for all axes leaves the direction of a normal as it is", facts)
+            Decision::dropped(
+                "one scale for all axes leaves the direction of a normal as it is",
+                facts,
+            )
         }
     }
 
@@ -299,14 +410,21 @@ impl Subject<'_> {
         } else if features.mirrored_uv {
             Decision::kept("some triangles carry their texture mirrored", facts)
         } else if features.has_handedness() {
-            Decision::kept("a general transform may mirror: the sign of its determinant goes along", facts)
+            Decision::kept(
+                "a general transform may mirror: the sign of its determinant goes along",
+                facts,
+            )
         } else {
             Decision::dropped("no mirrored UVs and no mirroring transform", facts)
         }
     }
 
     fn names(&self, is: impl Fn(&Object) -> bool) -> Vec<String> {
-        self.objects.iter().filter(|object| is(object)).map(|object| object.name.clone()).collect()
+        self.objects
+            .iter()
+            .filter(|object| is(object))
+            .map(|object| object.name.clone())
+            .collect()
     }
 }
 
@@ -315,4 +433,9 @@ pub(crate) fn count(n: usize) -> Fact {
 }
 
 /// The predicted error where nothing is displaced and nothing should be.
-pub(crate) const NO_ERROR: Predicted = Predicted { error_texels_p99: Some(0.0), error_px_p99: Some(0.0), ops: None, fetches: None };
+pub(crate) const NO_ERROR: Predicted = Predicted {
+    error_texels_p99: Some(0.0),
+    error_px_p99: Some(0.0),
+    ops: None,
+    fetches: None,
+};

@@ -50,7 +50,11 @@ pub fn draws_with(scene: &Scene, features: impl Fn(usize) -> FeatureSet) -> Vec<
     build(scene, &features, &|_| true)
 }
 
-fn build(scene: &Scene, features: &dyn Fn(usize) -> FeatureSet, drawn: &dyn Fn(&Object) -> bool) -> Vec<Draw> {
+fn build(
+    scene: &Scene,
+    features: &dyn Fn(usize) -> FeatureSet,
+    drawn: &dyn Fn(&Object) -> bool,
+) -> Vec<Draw> {
     let prepared: Vec<Prepared> = scene.materials.iter().map(Prepared::new).collect();
     let draw = |object: &Object| {
         let prepared = &prepared[object.material];
@@ -65,7 +69,12 @@ fn build(scene: &Scene, features: &dyn Fn(usize) -> FeatureSet, drawn: &dyn Fn(&
             edge: prepared.material.address,
         }
     };
-    scene.objects.iter().filter(|object| drawn(object)).map(draw).collect()
+    scene
+        .objects
+        .iter()
+        .filter(|object| drawn(object))
+        .map(draw)
+        .collect()
 }
 
 /// A material with its textures uploaded once for all its objects.
@@ -77,13 +86,33 @@ struct Prepared<'a> {
 
 impl<'a> Prepared<'a> {
     fn new(material: &'a Material) -> Self {
-        let albedo = material.albedo.map.as_ref().map_or_else(|| Texture::constant([1.0; 4]), |(_, map)| Texture::color(map));
-        let normal = material.normal.as_ref().map_or_else(flat_normal, |normal| Texture::normal(&normal.map));
-        let height =
-            material.height.as_ref().map_or_else(|| Texture::constant_height(0.0), |height| Texture::height(&height.field));
-        let textures = [("albedo_map", albedo), ("normal_map", normal), ("height_map", height)];
-        let textures = textures.into_iter().map(|(name, texture)| (name.to_owned(), Arc::new(texture))).collect();
-        Self { material, facts: MaterialFacts::of(material), textures }
+        let albedo = material
+            .albedo
+            .map
+            .as_ref()
+            .map_or_else(|| Texture::constant([1.0; 4]), |(_, map)| Texture::color(map));
+        let normal = material
+            .normal
+            .as_ref()
+            .map_or_else(flat_normal, |normal| Texture::normal(&normal.map));
+        let height = material.height.as_ref().map_or_else(
+            || Texture::constant_height(0.0),
+            |height| Texture::height(&height.field),
+        );
+        let textures = [
+            ("albedo_map", albedo),
+            ("normal_map", normal),
+            ("height_map", height),
+        ];
+        let textures = textures
+            .into_iter()
+            .map(|(name, texture)| (name.to_owned(), Arc::new(texture)))
+            .collect();
+        Self {
+            material,
+            facts: MaterialFacts::of(material),
+            textures,
+        }
     }
 }
 
@@ -93,11 +122,19 @@ fn flat_normal() -> Texture {
 }
 
 fn normal_decode(material: &Material) -> [f32; 2] {
-    let codec = material.normal.as_ref().map_or(bossage_assets::NormalCodec::Biased, |normal| normal.map.codec);
+    let codec = material
+        .normal
+        .as_ref()
+        .map_or(bossage_assets::NormalCodec::Biased, |normal| normal.map.codec);
     codec.scale_bias()
 }
 
-fn uniforms(scene: &Scene, object: &Object, prepared: &Prepared<'_>, features: &FeatureSet) -> BTreeMap<String, Vec<f32>> {
+fn uniforms(
+    scene: &Scene,
+    object: &Object,
+    prepared: &Prepared<'_>,
+    features: &FeatureSet,
+) -> BTreeMap<String, Vec<f32>> {
     let matrices = Matrices::new(&scene.camera, object);
     let lights: Vec<&Light> = scene.lights.iter().filter(|light| !light.is_black()).collect();
     let mut all = object_uniforms(&matrices);
@@ -110,31 +147,64 @@ fn uniforms(scene: &Scene, object: &Object, prepared: &Prepared<'_>, features: &
 
 fn object_uniforms(matrices: &Matrices) -> BTreeMap<String, Vec<f32>> {
     BTreeMap::from([
-        ("object.clip_from_local".to_owned(), columns(matrices.clip_from_local)),
-        ("object.world_from_local".to_owned(), columns(matrices.world_from_local)),
-        ("object.cofactor".to_owned(), columns(DMat4::from_mat3(matrices.cofactor))),
-        ("object.handedness_sign".to_owned(), vec![matrices.handedness as f32, 0.0, 0.0, 0.0]),
+        (
+            "object.clip_from_local".to_owned(),
+            columns(matrices.clip_from_local),
+        ),
+        (
+            "object.world_from_local".to_owned(),
+            columns(matrices.world_from_local),
+        ),
+        (
+            "object.cofactor".to_owned(),
+            columns(DMat4::from_mat3(matrices.cofactor)),
+        ),
+        (
+            "object.handedness_sign".to_owned(),
+            vec![matrices.handedness as f32, 0.0, 0.0, 0.0],
+        ),
     ])
 }
 
-fn light_uniforms(matrices: &Matrices, lights: &[&Light], features: &FeatureSet) -> BTreeMap<String, Vec<f32>> {
+fn light_uniforms(
+    matrices: &Matrices,
+    lights: &[&Light],
+    features: &FeatureSet,
+) -> BTreeMap<String, Vec<f32>> {
     let one = |light: &Light| {
-        let vector = matrices.light_vector(features.space, light).map(|v| v as f32).to_vec();
+        let vector = matrices
+            .light_vector(features.space, light)
+            .map(|v| v as f32)
+            .to_vec();
         (vector, padded(light.radiance(), 0.0))
     };
     let dark = || (vec![0.0, 0.0, 1.0, 0.0], vec![0.0; 4]);
     let (vector, radiance) = lights.first().map_or_else(dark, |light| one(light));
-    let mut items: Vec<f32> = lights.iter().take(MAX_LIGHTS).flat_map(|light| { let (v, r) = one(light); [v, r].concat() }).collect();
+    let mut items: Vec<f32> = lights
+        .iter()
+        .take(MAX_LIGHTS)
+        .flat_map(|light| {
+            let (v, r) = one(light);
+            [v, r].concat()
+        })
+        .collect();
     items.resize(MAX_LIGHTS * 8, 0.0);
     BTreeMap::from([
         ("light.vector".to_owned(), vector),
         ("light.radiance".to_owned(), radiance),
-        ("lights.count".to_owned(), vec![lights.len().min(MAX_LIGHTS) as f32, 0.0, 0.0, 0.0]),
+        (
+            "lights.count".to_owned(),
+            vec![lights.len().min(MAX_LIGHTS) as f32, 0.0, 0.0, 0.0],
+        ),
         ("lights.items".to_owned(), items),
     ])
 }
 
-fn material_uniforms(scene: &Scene, prepared: &Prepared<'_>, features: &FeatureSet) -> BTreeMap<String, Vec<f32>> {
+fn material_uniforms(
+    scene: &Scene,
+    prepared: &Prepared<'_>,
+    features: &FeatureSet,
+) -> BTreeMap<String, Vec<f32>> {
     let material = prepared.material;
     let albedo = match features.albedo {
         Albedo::Constant => folded(prepared),
@@ -148,11 +218,17 @@ fn material_uniforms(scene: &Scene, prepared: &Prepared<'_>, features: &FeatureS
     BTreeMap::from([
         ("material.albedo".to_owned(), albedo.as_vec4().to_array().to_vec()),
         ("material.ambient".to_owned(), padded(scene.ambient, 0.0)),
-        ("material.specular".to_owned(), specular.as_vec4().to_array().to_vec()),
+        (
+            "material.specular".to_owned(),
+            specular.as_vec4().to_array().to_vec(),
+        ),
         ("material.shininess".to_owned(), vec![material.shininess as f32]),
         ("material.relief".to_owned(), relief(prepared)),
         ("material.alpha_cutoff".to_owned(), vec![cutoff as f32]),
-        ("material.normal_decode".to_owned(), normal_decode(material).to_vec()),
+        (
+            "material.normal_decode".to_owned(),
+            normal_decode(material).to_vec(),
+        ),
     ])
 }
 
@@ -160,18 +236,29 @@ fn material_uniforms(scene: &Scene, prepared: &Prepared<'_>, features: &FeatureS
 /// left out, because it cannot be seen, leaves its constant alone.
 fn folded(prepared: &Prepared<'_>) -> DVec4 {
     let (color, facts) = (prepared.material.albedo.color, &prepared.facts.albedo);
-    let rgb = if facts.constant_rgb { facts.first.truncate() } else { color.truncate() };
-    rgb.extend(if facts.constant_alpha { facts.first.w } else { color.w })
+    let rgb = if facts.constant_rgb {
+        facts.first.truncate()
+    } else {
+        color.truncate()
+    };
+    rgb.extend(if facts.constant_alpha {
+        facts.first.w
+    } else {
+        color.w
+    })
 }
 
 /// Scale and bias along u, then the factor by which both differ along v (tiles that are not square). Zero where there is no relief, and where heights are constant: such a surface is the
 /// polygon itself (see the schema), unless the scene pins a technique.
 fn relief(prepared: &Prepared<'_>) -> Vec<f32> {
-    let is_plane = prepared.facts.height.is_none_or(|height| height.is_constant()) && prepared.material.technique == TechniquePin::Auto;
+    let is_plane = prepared.facts.height.is_none_or(|height| height.is_constant())
+        && prepared.material.technique == TechniquePin::Auto;
     match &prepared.material.height {
         Some(height) if !is_plane => {
             let Elevation { scale, bias } = height.elevation;
-            [scale.x, bias.x, scale.y / scale.x, 0.0].map(|x| x as f32).to_vec()
+            [scale.x, bias.x, scale.y / scale.x, 0.0]
+                .map(|x| x as f32)
+                .to_vec()
         }
         Some(_) | None => vec![0.0, 0.0, 1.0, 0.0],
     }

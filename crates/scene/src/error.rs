@@ -90,7 +90,11 @@ impl Report {
             line: 1,
             column: 1,
         };
-        Self { path: path.to_owned(), text: text.to_owned(), problems: vec![problem] }
+        Self {
+            path: path.to_owned(),
+            text: text.to_owned(),
+            problems: vec![problem],
+        }
     }
 }
 
@@ -99,20 +103,32 @@ impl std::error::Error for Report {}
 impl fmt::Display for Report {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let file = SimpleFile::new(self.path.display().to_string(), self.text.as_str());
-        let config = Config { chars: Chars::ascii(), ..Config::default() };
+        let config = Config {
+            chars: Chars::ascii(),
+            ..Config::default()
+        };
         for problem in &self.problems {
-            let text = term::emit_into_string(&config, &file, &diagnostic(problem)).map_err(|_| fmt::Error)?;
+            let text =
+                term::emit_into_string(&config, &file, &diagnostic(problem)).map_err(|_| fmt::Error)?;
             writeln!(out, "{}", text.trim_end())?;
             writeln!(out)?;
         }
         let count = self.problems.len();
-        write!(out, "{}: {count} problem{}", self.path.display(), if count == 1 { "" } else { "s" })
+        write!(
+            out,
+            "{}: {count} problem{}",
+            self.path.display(),
+            if count == 1 { "" } else { "s" }
+        )
     }
 }
 
 fn diagnostic(problem: &Problem) -> Diagnostic<()> {
-    let message =
-        if problem.field.is_empty() { problem.message.clone() } else { format!("`{}`: {}", problem.field, problem.message) };
+    let message = if problem.field.is_empty() {
+        problem.message.clone()
+    } else {
+        format!("`{}`: {}", problem.field, problem.message)
+    };
     Diagnostic::error()
         .with_message(message)
         .with_label(Label::primary((), problem.span.clone()))
@@ -123,7 +139,10 @@ fn diagnostic(problem: &Problem) -> Diagnostic<()> {
 pub(crate) fn line_column(text: &str, offset: usize) -> (usize, usize) {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
+    (
+        before.matches('\n').count() + 1,
+        before[line_start..].chars().count() + 1,
+    )
 }
 
 #[cfg(test)]

@@ -78,8 +78,14 @@ impl MaterialFacts {
     pub fn of(material: &Material) -> Self {
         Self {
             albedo: AlbedoFacts::of(material),
-            normal: material.normal.as_ref().map(|normal| NormalFacts::of(&normal.map)),
-            height: material.height.as_ref().map(|height| HeightFacts::of(&height.field)),
+            normal: material
+                .normal
+                .as_ref()
+                .map(|normal| NormalFacts::of(&normal.map)),
+            height: material
+                .height
+                .as_ref()
+                .map(|height| HeightFacts::of(&height.field)),
         }
     }
 }
@@ -88,7 +94,11 @@ impl AlbedoFacts {
     fn of(material: &Material) -> Self {
         let color = material.albedo.color;
         let white = ColorMap::constant([255; 4]);
-        let map = material.albedo.map.as_ref().map_or(&white, |(_, map)| map.as_ref());
+        let map = material
+            .albedo
+            .map
+            .as_ref()
+            .map_or(&white, |(_, map)| map.as_ref());
         let first = map.texels[0];
         let alpha = |byte: u8| f64::from(byte) / 255.0 * color.w;
         let (min, max) = map.alpha_range();
@@ -137,7 +147,10 @@ fn decode(codec: NormalCodec, texel: &[u8; 4]) -> [f64; 3] {
 impl HeightFacts {
     fn of(field: &HeightField) -> Self {
         let (min, max) = field.range();
-        Self { min: f64::from(min), max: f64::from(max) }
+        Self {
+            min: f64::from(min),
+            max: f64::from(max),
+        }
     }
 }
 

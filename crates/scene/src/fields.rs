@@ -22,21 +22,43 @@ pub(crate) struct Sink<'t> {
 
 impl<'t> Sink<'t> {
     pub(crate) fn new(text: &'t str) -> Self {
-        Self { text, problems: RefCell::default() }
+        Self {
+            text,
+            problems: RefCell::default(),
+        }
     }
 
     /// Notes a problem.
-    pub(crate) fn note(&self, field: &str, span: Range<usize>, message: impl Into<String>, hint: impl Into<String>) {
+    pub(crate) fn note(
+        &self,
+        field: &str,
+        span: Range<usize>,
+        message: impl Into<String>,
+        hint: impl Into<String>,
+    ) {
         let (line, column) = line_column(self.text, span.start);
         let (message, hint, field) = (message.into(), hint.into(), field.to_owned());
-        self.problems.borrow_mut().push(Problem { field, message, hint, span, line, column });
+        self.problems.borrow_mut().push(Problem {
+            field,
+            message,
+            hint,
+            span,
+            line,
+            column,
+        });
     }
 
     /// The report, in file order, if there is anything to report.
     pub(crate) fn into_report(self, path: &Path) -> Option<Box<Report>> {
         let mut problems = self.problems.into_inner();
         problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
-        (!problems.is_empty()).then(|| Box::new(Report { path: path.to_owned(), text: self.text.to_owned(), problems }))
+        (!problems.is_empty()).then(|| {
+            Box::new(Report {
+                path: path.to_owned(),
+                text: self.text.to_owned(),
+                problems,
+            })
+        })
     }
 }
 
@@ -59,17 +81,35 @@ pub(crate) struct Bound {
 }
 
 /// Any finite number.
-pub(crate) const ANY: Bound = Bound { allows: |_| true, words: "any finite number" };
+pub(crate) const ANY: Bound = Bound {
+    allows: |_| true,
+    words: "any finite number",
+};
 /// Greater than zero.
-pub(crate) const POSITIVE: Bound = Bound { allows: |x| x > 0.0, words: "greater than 0" };
+pub(crate) const POSITIVE: Bound = Bound {
+    allows: |x| x > 0.0,
+    words: "greater than 0",
+};
 /// Zero or greater.
-pub(crate) const NOT_NEGATIVE: Bound = Bound { allows: |x| x >= 0.0, words: "0 or greater" };
+pub(crate) const NOT_NEGATIVE: Bound = Bound {
+    allows: |x| x >= 0.0,
+    words: "0 or greater",
+};
 /// Anything but zero.
-pub(crate) const NOT_ZERO: Bound = Bound { allows: |x| x != 0.0, words: "not 0" };
+pub(crate) const NOT_ZERO: Bound = Bound {
+    allows: |x| x != 0.0,
+    words: "not 0",
+};
 /// In [0, 1].
-pub(crate) const UNIT: Bound = Bound { allows: |x| (0.0..=1.0).contains(&x), words: "in [0, 1]" };
+pub(crate) const UNIT: Bound = Bound {
+    allows: |x| (0.0..=1.0).contains(&x),
+    words: "in [0, 1]",
+};
 /// In (0, 1].
-pub(crate) const UNIT_NOT_ZERO: Bound = Bound { allows: |x| x > 0.0 && x <= 1.0, words: "in (0, 1]" };
+pub(crate) const UNIT_NOT_ZERO: Bound = Bound {
+    allows: |x| x > 0.0 && x <= 1.0,
+    words: "in (0, 1]",
+};
 
 impl<'t> Value<'t> {
     /// Notes a problem at this value.
@@ -79,22 +119,33 @@ impl<'t> Value<'t> {
 
     fn wrong_type(&self, expected: &str) {
         let found = self.value.type_str();
-        self.note(format!("expected {expected}, found {}", with_article(found)), format!("write {expected} here"));
+        self.note(
+            format!("expected {expected}, found {}", with_article(found)),
+            format!("write {expected} here"),
+        );
     }
 
     /// A finite number within a bound. Numbers end up in f32 in the shader, so what f32 cannot hold is refused too.
     pub(crate) fn number(&self, bound: Bound) -> Option<f64> {
         let number = match self.value {
-            DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix()).ok().map(|i| i as f64),
+            DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix())
+                .ok()
+                .map(|i| i as f64),
             DeValue::Float(float) => float.as_str().parse().ok(),
-            DeValue::String(_) | DeValue::Boolean(_) | DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => {
+            DeValue::String(_)
+            | DeValue::Boolean(_)
+            | DeValue::Datetime(_)
+            | DeValue::Array(_)
+            | DeValue::Table(_) => {
                 self.wrong_type("a number");
                 return None;
             }
         };
         match number {
             Some(x) if x.is_nan() => self.refuse("NaN is not a usable number", bound),
-            Some(x) if x.is_finite() && (x as f32).is_infinite() => self.refuse("too large for a 32-bit float", bound),
+            Some(x) if x.is_finite() && (x as f32).is_infinite() => {
+                self.refuse("too large for a 32-bit float", bound)
+            }
             Some(x) if x.is_finite() && (bound.allows)(x) => return Some(x),
             Some(x) if x.is_finite() => self.refuse(&format!("{x} is out of range"), bound),
             Some(_) => self.refuse("infinity is not a usable number", bound),
@@ -113,7 +164,9 @@ impl<'t> Value<'t> {
             self.wrong_type("a whole number");
             return None;
         };
-        let parsed = i64::from_str_radix(integer.as_str(), integer.radix()).ok().and_then(|i| u32::try_from(i).ok());
+        let parsed = i64::from_str_radix(integer.as_str(), integer.radix())
+            .ok()
+            .and_then(|i| u32::try_from(i).ok());
         let found = parsed.filter(|whole| range.contains(whole));
         if found.is_none() {
             self.note(
@@ -146,10 +199,16 @@ impl<'t> Value<'t> {
     /// One of a set of words.
     pub(crate) fn word<T: Copy>(&self, words: &[(&'static str, T)]) -> Option<T> {
         let got = self.string()?;
-        let found = words.iter().find(|(word, _)| *word == got).map(|(_, value)| *value);
+        let found = words
+            .iter()
+            .find(|(word, _)| *word == got)
+            .map(|(_, value)| *value);
         if found.is_none() {
             let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
-            self.note(format!("`{got}` is not known here"), suggest::hint(got, "known", &known));
+            self.note(
+                format!("`{got}` is not known here"),
+                suggest::hint(got, "known", &known),
+            );
         }
         found
     }
@@ -160,18 +219,32 @@ impl<'t> Value<'t> {
             self.wrong_type("an array");
             return None;
         };
-        Some(array.iter().enumerate().map(|(index, item)| self.child(format!("{}[{index}]", self.field), item)).collect())
+        Some(
+            array
+                .iter()
+                .enumerate()
+                .map(|(index, item)| self.child(format!("{}[{index}]", self.field), item))
+                .collect(),
+        )
     }
 
     fn child(&self, field: String, item: &'t Spanned<DeValue<'t>>) -> Value<'t> {
-        Value { field, span: item.span(), value: item.get_ref(), sink: self.sink }
+        Value {
+            field,
+            span: item.span(),
+            value: item.get_ref(),
+            sink: self.sink,
+        }
     }
 
     /// Exactly `N` numbers.
     pub(crate) fn numbers<const N: usize>(&self, bound: Bound) -> Option<[f64; N]> {
         let items = self.items()?;
         if items.len() != N {
-            self.note(format!("expected {N} numbers, found {}", items.len()), format!("write an array of {N} numbers"));
+            self.note(
+                format!("expected {N} numbers, found {}", items.len()),
+                format!("write an array of {N} numbers"),
+            );
             return None;
         }
         let read: Vec<Option<f64>> = items.iter().map(|item| item.number(bound)).collect();
@@ -200,12 +273,22 @@ impl<'t> Value<'t> {
             self.wrong_type("a table");
             return None;
         };
-        Some(Table { field: self.field.clone(), span: self.span.clone(), table, sink: self.sink, asked: RefCell::default() })
+        Some(Table {
+            field: self.field.clone(),
+            span: self.span.clone(),
+            table,
+            sink: self.sink,
+            asked: RefCell::default(),
+        })
     }
 }
 
 fn with_article(kind: &str) -> String {
-    let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    let article = if kind.starts_with(['a', 'e', 'i', 'o', 'u']) {
+        "an"
+    } else {
+        "a"
+    };
     format!("{article} {kind}")
 }
 
@@ -221,12 +304,22 @@ pub(crate) struct Table<'t> {
 impl<'t> Table<'t> {
     pub(crate) fn root(table: &'t Spanned<DeTable<'t>>, sink: &'t Sink<'t>) -> Self {
         // Problems of the file as a whole point at its first character.
-        Self { field: String::new(), span: 0..0, table: table.get_ref(), sink, asked: RefCell::default() }
+        Self {
+            field: String::new(),
+            span: 0..0,
+            table: table.get_ref(),
+            sink,
+            asked: RefCell::default(),
+        }
     }
 
     /// The path of a key of this table.
     pub(crate) fn path_of(&self, key: &str) -> String {
-        if self.field.is_empty() { key.to_owned() } else { format!("{}.{key}", self.field) }
+        if self.field.is_empty() {
+            key.to_owned()
+        } else {
+            format!("{}.{key}", self.field)
+        }
     }
 
     /// Notes a problem at this table.
@@ -245,20 +338,35 @@ impl<'t> Table<'t> {
     pub(crate) fn get(&self, key: &'static str) -> Option<Value<'t>> {
         self.asked.borrow_mut().push(key);
         let (_, value) = self.table.iter().find(|(name, _)| name.get_ref() == key)?;
-        Some(Value { field: self.path_of(key), span: value.span(), value: value.get_ref(), sink: self.sink })
+        Some(Value {
+            field: self.path_of(key),
+            span: value.span(),
+            value: value.get_ref(),
+            sink: self.sink,
+        })
     }
 
     /// A field that must be there.
     pub(crate) fn need(&self, key: &'static str, what: &str) -> Option<Value<'t>> {
         let found = self.get(key);
         if found.is_none() {
-            self.sink.note(&self.path_of(key), self.header_span(), format!("`{key}` is missing"), format!("add {what}"));
+            self.sink.note(
+                &self.path_of(key),
+                self.header_span(),
+                format!("`{key}` is missing"),
+                format!("add {what}"),
+            );
         }
         found
     }
 
     /// An optional field with the documented default, `None` only when it is there and wrong.
-    pub(crate) fn or<T>(&self, key: &'static str, default: T, read: impl FnOnce(&Value<'t>) -> Option<T>) -> Option<T> {
+    pub(crate) fn or<T>(
+        &self,
+        key: &'static str,
+        default: T,
+        read: impl FnOnce(&Value<'t>) -> Option<T>,
+    ) -> Option<T> {
         match self.get(key) {
             Some(value) => read(&value),
             None => Some(default),
@@ -268,10 +376,23 @@ impl<'t> Table<'t> {
     /// Reports every key that was not asked for.
     pub(crate) fn finish(&self) {
         let known = self.asked.borrow();
-        for (key, _) in self.table.iter().filter(|(key, _)| !known.contains(&key.get_ref().as_ref())) {
+        for (key, _) in self
+            .table
+            .iter()
+            .filter(|(key, _)| !known.contains(&key.get_ref().as_ref()))
+        {
             let name = key.get_ref().as_ref();
-            let what = if self.field.is_empty() { "keys of a scene".to_owned() } else { format!("keys of `{}`", self.field) };
-            self.sink.note(&self.path_of(name), key.span(), format!("unknown key `{name}`"), suggest::hint(name, &what, &known));
+            let what = if self.field.is_empty() {
+                "keys of a scene".to_owned()
+            } else {
+                format!("keys of `{}`", self.field)
+            };
+            self.sink.note(
+                &self.path_of(name),
+                key.span(),
+                format!("unknown key `{name}`"),
+                suggest::hint(name, &what, &known),
+            );
         }
     }
 }

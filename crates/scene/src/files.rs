@@ -18,14 +18,19 @@ pub(crate) struct Files {
 impl Files {
     /// For a scene file.
     pub(crate) fn new(scene: &Path) -> Self {
-        Self { folder: scene.parent().unwrap_or(Path::new("")).to_owned(), images: RefCell::default() }
+        Self {
+            folder: scene.parent().unwrap_or(Path::new("")).to_owned(),
+            images: RefCell::default(),
+        }
     }
 
     /// The image that a field names. A file named twice is read, and reported, at each place.
     pub(crate) fn image(&self, value: &Value<'_>) -> Option<(PathBuf, Arc<Image>)> {
         let path = self.resolve(value)?;
         let mut images = self.images.borrow_mut();
-        let read = images.entry(path.clone()).or_insert_with(|| load_image(&path).map(Arc::new).map_err(|error| chain(&error)));
+        let read = images
+            .entry(path.clone())
+            .or_insert_with(|| load_image(&path).map(Arc::new).map_err(|error| chain(&error)));
         match read {
             Ok(image) => Some((path, image.clone())),
             Err(message) => {
@@ -41,7 +46,10 @@ impl Files {
         match obj::load(&path) {
             Ok(mesh) => Some((path, mesh)),
             Err(error) => {
-                value.note(chain(&error), "a Wavefront OBJ with faces and texture coordinates; paths start at the scene's folder");
+                value.note(
+                    chain(&error),
+                    "a Wavefront OBJ with faces and texture coordinates; paths start at the scene's folder",
+                );
                 None
             }
         }

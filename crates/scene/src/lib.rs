@@ -70,10 +70,12 @@ pub use error::{Error, Problem, Report};
 pub use facts::{AlbedoFacts, HeightFacts, MaterialFacts, NormalFacts};
 pub use load::{load, load_str};
 pub use model::{
-    AlbedoSource, AlphaMode, Budget, Camera, Elevation, HeightSource, Light, LightKind, Material, NormalSource, Object, Scene, Shape,
-    Tangents, TechniquePin, Transform,
+    AlbedoSource, AlphaMode, Budget, Camera, Elevation, HeightSource, Light, LightKind, Material,
+    NormalSource, Object, Scene, Shape, Tangents, TechniquePin, Transform,
 };
-pub use plan::{Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Permutation, Plan, Predicted, State, plan};
+pub use plan::{
+    Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Permutation, Plan, Predicted, State, plan,
+};
 pub use predict::Error as PredictedError;
 pub use textures::{Level, Texels, Texture};
 pub use views::Footprint;

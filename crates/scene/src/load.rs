@@ -16,17 +16,26 @@ use crate::model::{Budget, Camera, Light, LightKind, Scene};
 use crate::schema;
 use crate::{load_material, load_object};
 
-const FOV: Bound = Bound { allows: |x| x > 0.0 && x < 180.0, words: "in (0, 180) degrees" };
+const FOV: Bound = Bound {
+    allows: |x| x > 0.0 && x < 180.0,
+    words: "in (0, 180) degrees",
+};
 
 /// Reads a scene and every file it names.
 ///
 /// # Errors
 /// When the file cannot be read, or anything in it or in a file it names is wrong; all problems are in the error.
 pub fn load(path: &Path) -> Result<Scene, Error> {
-    let read = |source| Error::Read { path: path.to_owned(), source };
+    let read = |source| Error::Read {
+        path: path.to_owned(),
+        source,
+    };
     let bytes = std::fs::metadata(path).map_err(read)?.len();
     if bytes > schema::MAX_SCENE_BYTES {
-        return Err(Error::TooLarge { path: path.to_owned(), bytes });
+        return Err(Error::TooLarge {
+            path: path.to_owned(),
+            bytes,
+        });
     }
     let text = std::fs::read_to_string(path).map_err(read)?;
     load_str(path, &text)
@@ -42,10 +51,19 @@ pub fn load_str(path: impl AsRef<Path>, text: &str) -> Result<Scene, Error> {
     let sink = Sink::new(text);
     for error in &syntax {
         let span = error.span().unwrap_or(0..0);
-        sink.note("", span, format!("not TOML: {}", error.message().replace('\n', ", ")), "see https://toml.io for the syntax");
+        sink.note(
+            "",
+            span,
+            format!("not TOML: {}", error.message().replace('\n', ", ")),
+            "see https://toml.io for the syntax",
+        );
     }
     // A text that is not TOML recovers into fragments: judging those would bury the real mistake.
-    let scene = if syntax.is_empty() { scene(path, &Table::root(&document, &sink)) } else { None };
+    let scene = if syntax.is_empty() {
+        scene(path, &Table::root(&document, &sink))
+    } else {
+        None
+    };
     match (sink.into_report(path), scene) {
         (Some(report), _) => Err(Error::Invalid(report)),
         (None, Some(scene)) => Ok(scene),
@@ -55,23 +73,44 @@ pub fn load_str(path: impl AsRef<Path>, text: &str) -> Result<Scene, Error> {
 
 fn scene(path: &Path, root: &Table<'_>) -> Option<Scene> {
     let files = Files::new(path);
-    let version = root.need("schema", "`schema = 1` as the first line").and_then(|value| version(&value));
-    let camera = root.need("camera", "a `[camera]` section").and_then(|value| camera(&value));
+    let version = root
+        .need("schema", "`schema = 1` as the first line")
+        .and_then(|value| version(&value));
+    let camera = root
+        .need("camera", "a `[camera]` section")
+        .and_then(|value| camera(&value));
     let ambient = root.or("ambient", schema::AMBIENT, |value| value.vec3(NOT_NEGATIVE));
-    let budget = root.or("budget", Budget { error_px: schema::ERROR_PX }, budget);
+    let budget = root.or(
+        "budget",
+        Budget {
+            error_px: schema::ERROR_PX,
+        },
+        budget,
+    );
     let lights = lights(root);
     let materials = named_list(root, "materials", |table| load_material::material(table, &files));
     let objects = load_object::objects(root, materials.as_deref(), &files);
     root.finish();
     let (materials, objects) = (materials?, objects?);
     version?;
-    Some(Scene { path: path.to_owned(), camera: camera?, ambient: ambient?, lights: lights?, materials, objects, budget: budget? })
+    Some(Scene {
+        path: path.to_owned(),
+        camera: camera?,
+        ambient: ambient?,
+        lights: lights?,
+        materials,
+        objects,
+        budget: budget?,
+    })
 }
 
 fn version(value: &Value<'_>) -> Option<()> {
     let number = value.whole(0..=u32::MAX)?;
     if number != schema::SCHEMA {
-        value.note(format!("schema {number} is not known"), format!("this version reads schema {}", schema::SCHEMA));
+        value.note(
+            format!("schema {number} is not known"),
+            format!("this version reads schema {}", schema::SCHEMA),
+        );
         return None;
     }
     Some(())
@@ -79,24 +118,47 @@ fn version(value: &Value<'_>) -> Option<()> {
 
 fn camera(value: &Value<'_>) -> Option<Camera> {
     let table = value.table()?;
-    let position = table.need("position", "`position = [x, y, z]`").and_then(|v| v.vec3(ANY));
-    let target = table.need("target", "`target = [x, y, z]`").and_then(|v| v.vec3(ANY));
+    let position = table
+        .need("position", "`position = [x, y, z]`")
+        .and_then(|v| v.vec3(ANY));
+    let target = table
+        .need("target", "`target = [x, y, z]`")
+        .and_then(|v| v.vec3(ANY));
     let up = table.or("up", schema::UP, |v| v.vec3(ANY));
-    let fov_deg = table.need("fov_deg", "`fov_deg`, the vertical field of view").and_then(|v| v.number(FOV));
-    let near = table.need("near", "`near`, the distance of the near plane").and_then(|v| v.number(POSITIVE));
-    let far = table.need("far", "`far`, the distance of the far plane").and_then(|v| v.number(POSITIVE));
-    let size = table.need("size", "`size = [width, height]` in pixels").and_then(|v| size(&v));
+    let fov_deg = table
+        .need("fov_deg", "`fov_deg`, the vertical field of view")
+        .and_then(|v| v.number(FOV));
+    let near = table
+        .need("near", "`near`, the distance of the near plane")
+        .and_then(|v| v.number(POSITIVE));
+    let far = table
+        .need("far", "`far`, the distance of the far plane")
+        .and_then(|v| v.number(POSITIVE));
+    let size = table
+        .need("size", "`size = [width, height]` in pixels")
+        .and_then(|v| size(&v));
     table.finish();
     let (position, target, up) = (position?, target?, up?);
     let (near, far) = (near?, far?);
     let looks = check_direction(&table, position, target, up);
     if near >= far {
         let place = table.get("near")?;
-        place.note(format!("near ({near}) is not less than far ({far})"), "make `near` smaller or `far` larger");
+        place.note(
+            format!("near ({near}) is not less than far ({far})"),
+            "make `near` smaller or `far` larger",
+        );
         return None;
     }
     looks.then_some(())?;
-    Some(Camera { position, target, up, fov_deg: fov_deg?, near, far, size: size? })
+    Some(Camera {
+        position,
+        target,
+        up,
+        fov_deg: fov_deg?,
+        near,
+        far,
+        size: size?,
+    })
 }
 
 /// Whether there is a viewing direction, and an up that is not along it.
@@ -107,7 +169,10 @@ fn check_direction(table: &Table<'_>, position: DVec3, target: DVec3, up: DVec3)
     let place = |key| table.get(key);
     if !usable(forward) {
         if let Some(value) = place("target") {
-            value.note("the target is the camera's own position", "move `target` to a point that the camera looks at");
+            value.note(
+                "the target is the camera's own position",
+                "move `target` to a point that the camera looks at",
+            );
         }
         return false;
     }
@@ -116,7 +181,10 @@ fn check_direction(table: &Table<'_>, position: DVec3, target: DVec3, up: DVec3)
         let hint = "choose an `up` that is not 0 and not along the line from `position` to `target`";
         match place("up") {
             Some(value) => value.note("up is parallel to the viewing direction, or 0", hint),
-            None => table.note("the default up, [0, 1, 0], is parallel to the viewing direction", "add an `up`"),
+            None => table.note(
+                "the default up, [0, 1, 0], is parallel to the viewing direction",
+                "add an `up`",
+            ),
         }
         return false;
     }
@@ -126,7 +194,10 @@ fn check_direction(table: &Table<'_>, position: DVec3, target: DVec3, up: DVec3)
 fn size(value: &Value<'_>) -> Option<[u32; 2]> {
     let items = value.items()?;
     let [width, height] = items.as_slice() else {
-        value.note(format!("expected 2 numbers, found {}", items.len()), "write `size = [width, height]`");
+        value.note(
+            format!("expected 2 numbers, found {}", items.len()),
+            "write `size = [width, height]`",
+        );
         return None;
     };
     let side = 1..=schema::MAX_CAMERA_SIDE;
@@ -146,41 +217,78 @@ fn lights(root: &Table<'_>) -> Option<Vec<Light>> {
     if let (Some(place), Some(lights)) = (root.get("lights"), &lights)
         && lights.len() > schema::MAX_LIGHTS
     {
-        let message = format!("{} lights; the shader's array holds {}", lights.len(), schema::MAX_LIGHTS);
+        let message = format!(
+            "{} lights; the shader's array holds {}",
+            lights.len(),
+            schema::MAX_LIGHTS
+        );
         place.note(message, "remove the least important lights");
     }
     lights
 }
 
 fn light(table: &Table<'_>) -> Option<Light> {
-    let name = table.need("name", "`name`, unique among lights").and_then(|v| v.name());
+    let name = table
+        .need("name", "`name`, unique among lights")
+        .and_then(|v| v.name());
     let kinds = [("directional", true), ("point", false)];
-    let kind = table.need("kind", "`kind`: `directional` or `point`").and_then(|v| v.word(&kinds));
-    let kind = kind.and_then(|directional| if directional { directional_kind(table) } else { point_kind(table) });
+    let kind = table
+        .need("kind", "`kind`: `directional` or `point`")
+        .and_then(|v| v.word(&kinds));
+    let kind = kind.and_then(|directional| {
+        if directional {
+            directional_kind(table)
+        } else {
+            point_kind(table)
+        }
+    });
     let color = table.or("color", schema::LIGHT_COLOR, |v| v.vec3(NOT_NEGATIVE));
     let intensity = table.or("intensity", schema::INTENSITY, |v| v.number(NOT_NEGATIVE));
     // Only one of these belongs here, and the other is named in its own message rather than as unknown.
     let _ = (table.get("direction"), table.get("position"));
     table.finish();
-    let light = Light { name: name?.to_owned(), kind: kind?, color: color?, intensity: intensity? };
+    let light = Light {
+        name: name?.to_owned(),
+        kind: kind?,
+        color: color?,
+        intensity: intensity?,
+    };
     if !light.radiance().as_vec3().is_finite() {
-        table.note("color times intensity is too large for a 32-bit float", "lower `intensity`");
+        table.note(
+            "color times intensity is too large for a 32-bit float",
+            "lower `intensity`",
+        );
     }
     Some(light)
 }
 
 fn directional_kind(table: &Table<'_>) -> Option<LightKind> {
-    refuse(table, "position", "a directional light has no position", "remove it, or make the light `kind = \"point\"`");
+    refuse(
+        table,
+        "position",
+        "a directional light has no position",
+        "remove it, or make the light `kind = \"point\"`",
+    );
     let value = table.need("direction", "`direction = [x, y, z]`, the way the light travels")?;
     let direction = value.vec3(ANY)?.try_normalize();
     if direction.is_none() {
-        value.note("a direction of length 0", "give the way the light travels, such as [0, -1, 0] for straight down");
+        value.note(
+            "a direction of length 0",
+            "give the way the light travels, such as [0, -1, 0] for straight down",
+        );
     }
-    Some(LightKind::Directional { direction: direction? })
+    Some(LightKind::Directional {
+        direction: direction?,
+    })
 }
 
 fn point_kind(table: &Table<'_>) -> Option<LightKind> {
-    refuse(table, "direction", "a point light has no direction", "remove it, or make the light `kind = \"directional\"`");
+    refuse(
+        table,
+        "direction",
+        "a point light has no direction",
+        "remove it, or make the light `kind = \"directional\"`",
+    );
     let position = table.need("position", "`position = [x, y, z]`")?.vec3(ANY)?;
     Some(LightKind::Point { position })
 }
@@ -198,7 +306,9 @@ pub(crate) fn named_list<'t, T: Named>(
     key: &'static str,
     read: impl Fn(&Table<'t>) -> Option<T>,
 ) -> Option<Vec<T>> {
-    let Some(list) = root.get(key) else { return Some(Vec::new()) };
+    let Some(list) = root.get(key) else {
+        return Some(Vec::new());
+    };
     let items = list.items()?;
     let read: Vec<Option<T>> = items.iter().map(|item| read(&item.table()?)).collect();
     let mut first: BTreeMap<String, String> = BTreeMap::new();
@@ -206,8 +316,14 @@ pub(crate) fn named_list<'t, T: Named>(
     for (item, value) in items.iter().zip(&read) {
         let Some(value) = value else { continue };
         if let Some(earlier) = first.insert(value.name().to_owned(), item.field.clone()) {
-            let place = item.table().and_then(|table| table.get("name")).unwrap_or_else(|| item.clone());
-            place.note(format!("the name `{}` is already that of `{earlier}`", value.name()), "give each a name of its own");
+            let place = item
+                .table()
+                .and_then(|table| table.get("name"))
+                .unwrap_or_else(|| item.clone());
+            place.note(
+                format!("the name `{}` is already that of `{earlier}`", value.name()),
+                "give each a name of its own",
+            );
             unique = false;
         }
     }

@@ -11,14 +11,27 @@ use glam::{DVec2, DVec4};
 use crate::fields::{ANY, Bound, NOT_NEGATIVE, POSITIVE, Table, UNIT, UNIT_NOT_ZERO, Value};
 use crate::files::{Files, chain};
 use crate::load::{Named, refuse};
-use crate::model::{AlbedoSource, AlphaMode, Elevation, HeightSource, Material, NormalSource, Tangents, TechniquePin};
+use crate::model::{
+    AlbedoSource, AlphaMode, Elevation, HeightSource, Material, NormalSource, Tangents, TechniquePin,
+};
 use crate::schema;
 
-const SHININESS: Bound = Bound { allows: |x| x > 0.0 && x <= schema::MAX_SHININESS, words: "greater than 0, at most 65536" };
-const ADDRESS: [(&str, EdgeMode); 3] = [("wrap", EdgeMode::Wrap), ("mirror", EdgeMode::Mirror), ("clamp", EdgeMode::Clamp)];
+const SHININESS: Bound = Bound {
+    allows: |x| x > 0.0 && x <= schema::MAX_SHININESS,
+    words: "greater than 0, at most 65536",
+};
+const ADDRESS: [(&str, EdgeMode); 3] = [
+    ("wrap", EdgeMode::Wrap),
+    ("mirror", EdgeMode::Mirror),
+    ("clamp", EdgeMode::Clamp),
+];
 const FORM: [(&str, Form); 2] = [("hardened", Form::Hardened), ("published", Form::Published)];
-const SPACE: [(&str, LightingSpace); 2] = [("world", LightingSpace::World), ("object", LightingSpace::Object)];
-const TANGENTS: [(&str, Tangents); 2] = [("mikktspace", Tangents::MikkTSpace), ("from_uv", Tangents::FromUv)];
+const SPACE: [(&str, LightingSpace); 2] =
+    [("world", LightingSpace::World), ("object", LightingSpace::Object)];
+const TANGENTS: [(&str, Tangents); 2] = [
+    ("mikktspace", Tangents::MikkTSpace),
+    ("from_uv", Tangents::FromUv),
+];
 const CODEC: [(&str, NormalCodec); 2] = [("unorm", NormalCodec::Unorm), ("biased", NormalCodec::Biased)];
 const CHANNEL: [(&str, Channel); 5] = [
     ("red", Channel::Red),
@@ -44,8 +57,13 @@ impl Named for Material {
 
 /// One `[[materials]]` table.
 pub(crate) fn material(table: &Table<'_>, files: &Files) -> Option<Material> {
-    let name = table.need("name", "`name`, unique among materials").and_then(|v| v.name());
-    let white = AlbedoSource { color: schema::ALBEDO_COLOR, map: None };
+    let name = table
+        .need("name", "`name`, unique among materials")
+        .and_then(|v| v.name());
+    let white = AlbedoSource {
+        color: schema::ALBEDO_COLOR,
+        map: None,
+    };
     let albedo = table.or("albedo", white, |v| albedo(v, files));
     let address = table.or("address", EdgeMode::Wrap, |v| v.word(&ADDRESS));
     let height = table.or("height", None, |v| height(v, files).map(Some));
@@ -88,10 +106,15 @@ fn check_pin(table: &Table<'_>, technique: TechniquePin) {
         TechniquePin::ParallaxOffset => "parallax_offset",
         TechniquePin::ParallaxOffsetLimited => "parallax_offset_limited",
     };
-    let Some(place) = table.get("technique") else { return };
+    let Some(place) = table.get("technique") else {
+        return;
+    };
     if table.get("height").is_none() {
         let height = table.path_of("height");
-        place.note(format!("`{pinned}` needs `{height}`"), format!("add `{height}` with a map, or set technique to `auto`"));
+        place.note(
+            format!("`{pinned}` needs `{height}`"),
+            format!("add `{height}` with a map, or set technique to `auto`"),
+        );
     }
     let has_albedo_map = table.get("albedo").and_then(|value| value.peek("map")).is_some();
     if !has_albedo_map && table.get("normal").is_none() {
@@ -108,7 +131,10 @@ fn albedo(value: &Value<'_>, files: &Files) -> Option<AlbedoSource> {
     let color = table.or("color", schema::ALBEDO_COLOR, color);
     let map = table.or("map", None, |v| color_map(v, files).map(Some));
     table.finish();
-    Some(AlbedoSource { color: color?, map: map? })
+    Some(AlbedoSource {
+        color: color?,
+        map: map?,
+    })
 }
 
 /// Three or four numbers; alpha is 1 where it is not given.
@@ -121,7 +147,11 @@ fn color(value: &Value<'_>) -> Option<DVec4> {
 
 fn color_map(value: &Value<'_>, files: &Files) -> Option<(PathBuf, Arc<ColorMap>)> {
     let (path, image) = files.image(value)?;
-    let map = asset(value, ColorMap::from_image(&image), "use an image with colours from 0 to 1")?;
+    let map = asset(
+        value,
+        ColorMap::from_image(&image),
+        "use an image with colours from 0 to 1",
+    )?;
     Some((path, Arc::new(map)))
 }
 
@@ -140,14 +170,23 @@ struct Heights<'a> {
 /// A map from a file, or baked from the material's heights, which then must be there.
 fn normal(value: &Value<'_>, files: &Files, heights: &Heights<'_>) -> Option<NormalSource> {
     let table = value.table()?;
-    let codec = table.need("codec", "`codec`: `unorm` or `biased`, as the map is written").and_then(|v| v.word(&CODEC));
+    let codec = table
+        .need("codec", "`codec`: `unorm` or `biased`, as the map is written")
+        .and_then(|v| v.word(&CODEC));
     let bake = table.get("bake");
     let made = match &bake {
         Some(bake) => {
-            refuse(&table, "map", "`map` does not go with `bake`", "give a `map`, or `bake` one from the heights");
+            refuse(
+                &table,
+                "map",
+                "`map` does not go with `bake`",
+                "give a `map`, or `bake` one from the heights",
+            );
             baked(bake, codec, heights)
         }
-        None => table.need("map", "`map`, the normal map's file, or `bake = \"central\"`").and_then(|v| normal_map(&v, codec, files)),
+        None => table
+            .need("map", "`map`, the normal map's file, or `bake = \"central\"`")
+            .and_then(|v| normal_map(&v, codec, files)),
     };
     table.finish();
     made
@@ -155,21 +194,38 @@ fn normal(value: &Value<'_>, files: &Files, heights: &Heights<'_>) -> Option<Nor
 
 fn normal_map(value: &Value<'_>, codec: Option<NormalCodec>, files: &Files) -> Option<NormalSource> {
     let (path, image) = files.image(value)?;
-    let map = asset(value, NormalMap::from_image(&image, codec?), "use an image with red, green and blue")?;
-    Some(NormalSource { path, map: Arc::new(map) })
+    let map = asset(
+        value,
+        NormalMap::from_image(&image, codec?),
+        "use an image with red, green and blue",
+    )?;
+    Some(NormalSource {
+        path,
+        map: Arc::new(map),
+    })
 }
 
 fn baked(value: &Value<'_>, codec: Option<NormalCodec>, heights: &Heights<'_>) -> Option<NormalSource> {
     value.word(&[("central", ())])?;
     if !heights.given {
         let field = &heights.field;
-        value.note(format!("there are no heights to bake from: `{field}` is missing"), format!("add `{field}`"));
+        value.note(
+            format!("there are no heights to bake from: `{field}` is missing"),
+            format!("add `{field}`"),
+        );
         return None;
     }
     let (height, edge) = heights.read?;
     let scale = height.elevation.scale.as_vec2().to_array();
-    let bake = asset(value, Bake::central(&height.field, scale, edge, codec?), "make the relief less steep")?;
-    Some(NormalSource { path: height.path.clone(), map: Arc::new(height_to_normal::bake(&height.field, &bake)) })
+    let bake = asset(
+        value,
+        Bake::central(&height.field, scale, edge, codec?),
+        "make the relief less steep",
+    )?;
+    Some(NormalSource {
+        path: height.path.clone(),
+        map: Arc::new(height_to_normal::bake(&height.field, &bake)),
+    })
 }
 
 fn height(value: &Value<'_>, files: &Files) -> Option<HeightSource> {
@@ -180,24 +236,55 @@ fn height(value: &Value<'_>, files: &Files) -> Option<HeightSource> {
     let elevation = elevation(&table);
     table.finish();
     let (path, image) = image?;
-    let made = asset(&map?, HeightField::from_image(&image, channel?), "use an image with heights from 0 to 1 in that channel")?;
-    Some(HeightSource { path, field: Arc::new(made), elevation: elevation? })
+    let made = asset(
+        &map?,
+        HeightField::from_image(&image, channel?),
+        "use an image with heights from 0 to 1 in that channel",
+    )?;
+    Some(HeightSource {
+        path,
+        field: Arc::new(made),
+        elevation: elevation?,
+    })
 }
 
 /// Scale and bias in UV units, or depth and tile size in world units: one pair, whole.
 fn elevation(table: &Table<'_>) -> Option<Elevation> {
     let world = table.get("depth").is_some() || table.get("tile").is_some();
     if !world {
-        let scale = table.need("scale", "`scale` and `bias` in UV units, or `depth` and `tile` in world units");
+        let scale = table.need(
+            "scale",
+            "`scale` and `bias` in UV units, or `depth` and `tile` in world units",
+        );
         let scale = scale.and_then(|v| v.number(POSITIVE));
-        let bias = table.need("bias", "`bias`: `-scale` for a surface below the polygon").and_then(|v| v.number(ANY));
-        return Some(Elevation { scale: DVec2::splat(scale?), bias: DVec2::splat(bias?) });
+        let bias = table
+            .need("bias", "`bias`: `-scale` for a surface below the polygon")
+            .and_then(|v| v.number(ANY));
+        return Some(Elevation {
+            scale: DVec2::splat(scale?),
+            bias: DVec2::splat(bias?),
+        });
     }
     let hint = "give either `scale` and `bias` in UV units, or `depth` and `tile` in world units";
-    refuse(table, "scale", "`scale` does not go with world `depth` and `tile`", hint);
-    refuse(table, "bias", "`bias` does not go with world `depth` and `tile`", hint);
-    let depth = table.need("depth", "`depth`, the height of the relief in world units").and_then(|v| v.number(POSITIVE));
-    let tile = table.need("tile", "`tile = [width, height]` of one texture tile in world units");
+    refuse(
+        table,
+        "scale",
+        "`scale` does not go with world `depth` and `tile`",
+        hint,
+    );
+    refuse(
+        table,
+        "bias",
+        "`bias` does not go with world `depth` and `tile`",
+        hint,
+    );
+    let depth = table
+        .need("depth", "`depth`, the height of the relief in world units")
+        .and_then(|v| v.number(POSITIVE));
+    let tile = table.need(
+        "tile",
+        "`tile = [width, height]` of one texture tile in world units",
+    );
     let tile = tile.and_then(|v| v.numbers::<2>(POSITIVE)).map(DVec2::from_array);
     let scale = DVec2::splat(depth?) / tile?;
     Some(Elevation { scale, bias: -scale })
@@ -205,14 +292,26 @@ fn elevation(table: &Table<'_>) -> Option<Elevation> {
 
 fn alpha(value: &Value<'_>) -> Option<AlphaMode> {
     let table = value.table()?;
-    let mode = table.need("mode", "`mode`: `opaque` or `mask`").and_then(|v| v.word(&[("opaque", false), ("mask", true)]));
+    let mode = table
+        .need("mode", "`mode`: `opaque` or `mask`")
+        .and_then(|v| v.word(&[("opaque", false), ("mask", true)]));
     let alpha = match mode {
         Some(true) => {
-            let cutoff = table.need("cutoff", "`cutoff`, the alpha below which fragments are discarded");
-            cutoff.and_then(|v| v.number(UNIT_NOT_ZERO)).map(|cutoff| AlphaMode::Mask { cutoff })
+            let cutoff = table.need(
+                "cutoff",
+                "`cutoff`, the alpha below which fragments are discarded",
+            );
+            cutoff
+                .and_then(|v| v.number(UNIT_NOT_ZERO))
+                .map(|cutoff| AlphaMode::Mask { cutoff })
         }
         Some(false) => {
-            refuse(&table, "cutoff", "an opaque material has no cutoff", "remove it, or set mode to `mask`");
+            refuse(
+                &table,
+                "cutoff",
+                "an opaque material has no cutoff",
+                "remove it, or set mode to `mask`",
+            );
             Some(AlphaMode::Opaque)
         }
         None => {

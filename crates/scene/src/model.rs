@@ -38,13 +38,19 @@ impl Scene {
 
     /// The objects that use a material, by its index.
     pub fn objects_of(&self, material: usize) -> impl Iterator<Item = &Object> {
-        self.objects.iter().filter(move |object| object.material == material)
+        self.objects
+            .iter()
+            .filter(move |object| object.material == material)
     }
 
     /// Pins one relief technique for every material that has a height map, as `--technique` does on the command line.
     /// Materials without a height map are left alone.
     pub fn pin_technique(&mut self, technique: TechniquePin) {
-        for material in self.materials.iter_mut().filter(|material| material.height.is_some()) {
+        for material in self
+            .materials
+            .iter_mut()
+            .filter(|material| material.height.is_some())
+        {
             material.technique = technique;
         }
     }
@@ -286,7 +292,11 @@ pub struct Transform {
 
 impl Transform {
     /// No transform.
-    pub const IDENTITY: Self = Self { scale: DVec3::ONE, rotate: DQuat::IDENTITY, translate: DVec3::ZERO };
+    pub const IDENTITY: Self = Self {
+        scale: DVec3::ONE,
+        rotate: DQuat::IDENTITY,
+        translate: DVec3::ZERO,
+    };
 
     /// World from local.
     #[must_use]

@@ -39,7 +39,11 @@ impl Plan {
 
     /// Fills in the static cost of one permutation, as its manifest states it, for every material that shares it.
     pub fn set_cost(&mut self, permutation: &str, ops: u32, fetches: u32) {
-        for material in self.materials.iter_mut().filter(|material| material.permutation == permutation) {
+        for material in self
+            .materials
+            .iter_mut()
+            .filter(|material| material.permutation == permutation)
+        {
             material.predicted.ops = Some(ops);
             material.predicted.fetches = Some(fetches);
         }
@@ -220,8 +224,14 @@ pub struct Permutation {
 /// Derives what a scene calls for. Deterministic: the same files give the same plan.
 #[must_use]
 pub fn plan(scene: &Scene) -> Plan {
-    let views: Vec<View> = scene.objects.iter().map(|object| View::new(&scene.camera, object)).collect();
-    let materials: Vec<MaterialPlan> = (0..scene.materials.len()).map(|index| decide::material(scene, &views, index)).collect();
+    let views: Vec<View> = scene
+        .objects
+        .iter()
+        .map(|object| View::new(&scene.camera, object))
+        .collect();
+    let materials: Vec<MaterialPlan> = (0..scene.materials.len())
+        .map(|index| decide::material(scene, &views, index))
+        .collect();
     Plan {
         schema: 1,
         scene: scene.path.clone(),
@@ -234,8 +244,16 @@ pub fn plan(scene: &Scene) -> Plan {
 fn permutations(materials: &[MaterialPlan]) -> Vec<Permutation> {
     let mut by_name: BTreeMap<&str, Permutation> = BTreeMap::new();
     for material in materials {
-        let new = || Permutation { name: material.permutation.clone(), features: material.features, materials: Vec::new() };
-        by_name.entry(&material.permutation).or_insert_with(new).materials.push(material.name.clone());
+        let new = || Permutation {
+            name: material.permutation.clone(),
+            features: material.features,
+            materials: Vec::new(),
+        };
+        by_name
+            .entry(&material.permutation)
+            .or_insert_with(new)
+            .materials
+            .push(material.name.clone());
     }
     by_name.into_values().collect()
 }

@@ -44,20 +44,34 @@ impl<'a> Truth<'a> {
     pub(crate) fn trace(height: &'a HeightSource, edge: EdgeMode, views: &[&View]) -> Self {
         let total: f64 = views.iter().map(|view| view.area_px()).sum();
         let share = |view: &View| (f64::from(RAYS) * view.area_px() / total).ceil() as u32;
-        let rays = views.iter().filter(|view| view.area_px() > 0.0).flat_map(|view| view.rays(share(view)));
-        let rays = rays.filter_map(|ray| Some((ray, true_uv(height, edge, &ray)?))).collect();
+        let rays = views
+            .iter()
+            .filter(|view| view.area_px() > 0.0)
+            .flat_map(|view| view.rays(share(view)));
+        let rays = rays
+            .filter_map(|ray| Some((ray, true_uv(height, edge, &ray)?)))
+            .collect();
         Self { height, edge, rays }
     }
 
     /// The error of a technique over these rays; none when there are no rays.
     pub(crate) fn error(&self, technique: Relief, form: Form) -> Option<Error> {
-        let size = DVec2::new(f64::from(self.height.field.width), f64::from(self.height.field.height));
+        let size = DVec2::new(
+            f64::from(self.height.field.width),
+            f64::from(self.height.field.height),
+        );
         let errors = self.rays.iter().map(|(ray, truth)| {
             let off = self.shifted(technique, form, ray) - *truth;
-            ((off * size).length(), (ray.px_per_uv[0] * off.x + ray.px_per_uv[1] * off.y).length())
+            (
+                (off * size).length(),
+                (ray.px_per_uv[0] * off.x + ray.px_per_uv[1] * off.y).length(),
+            )
         });
         let (texels, px): (Vec<f64>, Vec<f64>) = errors.unzip();
-        Some(Error { texels_p99: percentile_99(texels)?, px_p99: percentile_99(px)? })
+        Some(Error {
+            texels_p99: percentile_99(texels)?,
+            px_p99: percentile_99(px)?,
+        })
     }
 
     fn shifted(&self, technique: Relief, form: Form, ray: &ViewRay) -> DVec2 {
@@ -81,7 +95,10 @@ impl<'a> Truth<'a> {
 fn true_uv(height: &HeightSource, edge: EdgeMode, ray: &ViewRay) -> Option<DVec2> {
     let Elevation { scale, bias } = height.elevation;
     let slope = ray.view_ts.truncate() / ray.view_ts.z;
-    let ray = Ray { uv_top: ray.uv + (scale + bias) * slope, delta: -scale * slope };
+    let ray = Ray {
+        uv_top: ray.uv + (scale + bias) * slope,
+        delta: -scale * slope,
+    };
     if !(ray.uv_top.is_finite() && ray.delta.is_finite()) {
         return None;
     }

@@ -1,6 +1,6 @@
 //! Whether a material's height map is used, and by which technique.
 //!
-//! Dropped, in this order: no map; nothing textured to displace; pinned to `none`; constant heights; out of view; a displacement
+//! Dropped, in this order: no map; constant heights; nothing textured to displace; pinned to `none`; out of view; a displacement
 //! that cannot reach the budget anywhere on screen. Otherwise the pinned technique, or the chosen one (see `choose.rs`).
 
 use bossage_shaders::Relief;
@@ -39,24 +39,34 @@ pub(crate) fn decide(subject: &Subject<'_>, textured: bool) -> ReliefPlan {
     };
     let Displacement { px, facts } = displacement(subject, height, range);
     let pin = subject.material.technique;
+    if pin == TechniquePin::Auto && range.is_constant() {
+        return without(
+            "height does not vary: the surface is the polygon",
+            facts,
+            NO_ERROR,
+        );
+    }
     if !textured {
         return without("no map is left that it would displace", facts, NO_ERROR);
-    }
-    if pin == TechniquePin::Auto && range.is_constant() {
-        return without("height does not vary: the surface is the polygon", facts, NO_ERROR);
     }
     let truth = Truth::trace(height, subject.material.address, &subject.views);
     let predict = |technique| predicted(&truth, technique, subject);
     match pin {
         TechniquePin::None => without("pinned to none by the scene", facts, predict(Relief::None)),
-        TechniquePin::ParallaxOffset => pinned(Relief::ParallaxOffset, facts, predict(Relief::ParallaxOffset)),
-        TechniquePin::ParallaxOffsetLimited => {
-            pinned(Relief::ParallaxOffsetLimited, facts, predict(Relief::ParallaxOffsetLimited))
+        TechniquePin::ParallaxOffset => {
+            pinned(Relief::ParallaxOffset, facts, predict(Relief::ParallaxOffset))
         }
+        TechniquePin::ParallaxOffsetLimited => pinned(
+            Relief::ParallaxOffsetLimited,
+            facts,
+            predict(Relief::ParallaxOffsetLimited),
+        ),
         TechniquePin::Auto if px == 0.0 => without("nothing of it is in view", facts, predict(Relief::None)),
-        TechniquePin::Auto if px <= subject.scene.budget.error_px => {
-            without("the displacement stays within the error budget everywhere on screen", facts, predict(Relief::None))
-        }
+        TechniquePin::Auto if px <= subject.scene.budget.error_px => without(
+            "the displacement stays within the error budget everywhere on screen",
+            facts,
+            predict(Relief::None),
+        ),
         TechniquePin::Auto => chosen(&truth, subject, facts),
     }
 }
@@ -70,8 +80,17 @@ struct Displacement {
 fn displacement(subject: &Subject<'_>, height: &HeightSource, range: HeightFacts) -> Displacement {
     let (low, high) = (height.elevation.at(range.min), height.elevation.at(range.max));
     let reach = low.abs().max(high.abs());
-    let px = subject.views.iter().map(|view| view.displacement_px(reach)).fold(0.0, f64::max);
-    let tile_px = subject.views.iter().filter_map(|view| view.footprint()).map(|seen| seen.tile_px).fold(0.0, f64::max);
+    let px = subject
+        .views
+        .iter()
+        .map(|view| view.displacement_px(reach))
+        .fold(0.0, f64::max);
+    let tile_px = subject
+        .views
+        .iter()
+        .filter_map(|view| view.footprint())
+        .map(|seen| seen.tile_px)
+        .fold(0.0, f64::max);
     let side = f64::from(height.field.width.max(height.field.height));
     let mut facts = evidence([
         ("height_range", Fact::Numbers(vec![range.min, range.max])),
@@ -88,31 +107,63 @@ fn displacement(subject: &Subject<'_>, height: &HeightSource, range: HeightFacts
 fn predicted(truth: &Truth<'_>, technique: Relief, subject: &Subject<'_>) -> Predicted {
     let error = truth.error(technique, subject.material.form);
     let (error_texels_p99, error_px_p99) = (error.map(|e| e.texels_p99), error.map(|e| e.px_p99));
-    Predicted { error_texels_p99, error_px_p99, ..Predicted::default() }
+    Predicted {
+        error_texels_p99,
+        error_px_p99,
+        ..Predicted::default()
+    }
 }
 
 fn without(reason: &str, facts: Evidence, predicted: Predicted) -> ReliefPlan {
-    ReliefPlan { technique: Relief::None, decision: Decision::dropped(reason, facts), predicted, choice: None }
+    ReliefPlan {
+        technique: Relief::None,
+        decision: Decision::dropped(reason, facts),
+        predicted,
+        choice: None,
+    }
 }
 
 fn pinned(technique: Relief, facts: Evidence, predicted: Predicted) -> ReliefPlan {
-    ReliefPlan { technique, decision: Decision::kept("pinned by the scene", facts), predicted, choice: None }
+    ReliefPlan {
+        technique,
+        decision: Decision::kept("pinned by the scene", facts),
+        predicted,
+        choice: None,
+    }
 }
 
 fn chosen(truth: &Truth<'_>, subject: &Subject<'_>, facts: Evidence) -> ReliefPlan {
     let candidate = |technique| {
         let error = truth.error(technique, subject.material.form)?;
-        Some(Candidate { technique: id(technique), error })
+        Some(Candidate {
+            technique: id(technique),
+            error,
+        })
     };
     let candidates: Vec<Candidate> = LADDER.into_iter().filter_map(candidate).collect();
     let Some(choice) = choose(&candidates, subject.scene.budget.error_px) else {
         return without("it is seen from behind only", facts, Predicted::default());
     };
-    let technique = LADDER.into_iter().find(|&technique| id(technique) == choice.chosen.technique).unwrap_or(Relief::None);
+    let technique = LADDER
+        .into_iter()
+        .find(|&technique| id(technique) == choice.chosen.technique)
+        .unwrap_or(Relief::None);
     let error = choice.chosen.error;
-    let reason = if choice.meets_budget { "the cheapest technique within the budget" } else { "no technique meets the budget: the best" };
+    let reason = if choice.meets_budget {
+        "the cheapest technique within the budget"
+    } else {
+        "no technique meets the budget: the best"
+    };
     let reason = format!("{reason}: {}", choice.chosen.technique);
-    let predicted =
-        Predicted { error_texels_p99: Some(error.texels_p99), error_px_p99: Some(error.px_p99), ..Predicted::default() };
-    ReliefPlan { technique, decision: Decision::kept(reason, facts), predicted, choice: Some(choice) }
+    let predicted = Predicted {
+        error_texels_p99: Some(error.texels_p99),
+        error_px_p99: Some(error.px_p99),
+        ..Predicted::default()
+    };
+    ReliefPlan {
+        technique,
+        decision: Decision::kept(reason, facts),
+        predicted,
+        choice: Some(choice),
+    }
 }

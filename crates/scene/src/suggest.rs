@@ -14,7 +14,11 @@ pub(crate) fn nearest<'a>(got: &str, known: impl IntoIterator<Item = &'a str>) -
 
 /// ``did you mean `near`? `` where a name is near, then the list of what is known.
 pub(crate) fn hint<'a>(got: &str, what: &str, known: &[&'a str]) -> String {
-    let list = known.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+    let list = known
+        .iter()
+        .map(|name| format!("`{name}`"))
+        .collect::<Vec<_>>()
+        .join(", ");
     match nearest(got, known.iter().copied()) {
         Some(name) => format!("did you mean `{name}`? {what}: {list}"),
         None => format!("{what}: {list}"),

@@ -6,13 +6,28 @@ use crate::plan::{Effect, Fact, MaterialPlan, Plan, State};
 
 impl fmt::Display for Plan {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(out, "{}   budget {} px (99th percentile)", self.scene.display(), Short(self.budget_px))?;
+        writeln!(
+            out,
+            "{}   budget {} px (99th percentile)",
+            self.scene.display(),
+            Short(self.budget_px)
+        )?;
         for material in &self.materials {
             write!(out, "\n{material}")?;
         }
-        writeln!(out, "\npermutations: {} for {} materials", self.permutations.len(), self.materials.len())?;
+        writeln!(
+            out,
+            "\npermutations: {} for {} materials",
+            self.permutations.len(),
+            self.materials.len()
+        )?;
         for permutation in &self.permutations {
-            writeln!(out, "  {}  <- {}", permutation.name, permutation.materials.join(", "))?;
+            writeln!(
+                out,
+                "  {}  <- {}",
+                permutation.name,
+                permutation.materials.join(", ")
+            )?;
         }
         Ok(())
     }
@@ -33,10 +48,16 @@ impl fmt::Display for MaterialPlan {
         if !self.drawn {
             writeln!(out, "  note         nothing of it is drawn")?;
         }
-        self.effects.iter().try_for_each(|effect| writeln!(out, "  {effect}"))?;
+        self.effects
+            .iter()
+            .try_for_each(|effect| writeln!(out, "  {effect}"))?;
         for other in self.choice.iter().flat_map(|choice| &choice.others) {
             let (px, texels) = (Short(other.error.px_p99), Short(other.error.texels_p99));
-            writeln!(out, "  instead      {}: {px} px, {texels} texels", other.technique)?;
+            writeln!(
+                out,
+                "  instead      {}: {px} px, {texels} texels",
+                other.technique
+            )?;
         }
         Ok(())
     }
@@ -49,8 +70,16 @@ impl fmt::Display for Effect {
             State::Dropped => "dropped",
         };
         write!(out, "{state}  {:<16}  {}", self.id.as_str(), self.reason)?;
-        let facts: Vec<String> = self.evidence.iter().map(|(name, fact)| format!("{name} = {fact}")).collect();
-        if facts.is_empty() { Ok(()) } else { write!(out, "  [{}]", facts.join(", ")) }
+        let facts: Vec<String> = self
+            .evidence
+            .iter()
+            .map(|(name, fact)| format!("{name} = {fact}"))
+            .collect();
+        if facts.is_empty() {
+            Ok(())
+        } else {
+            write!(out, "  [{}]", facts.join(", "))
+        }
     }
 }
 
@@ -85,7 +114,10 @@ fn seen(object: &crate::plan::ObjectView) -> String {
 }
 
 fn predicted(material: &MaterialPlan) -> String {
-    let error = match (material.predicted.error_px_p99, material.predicted.error_texels_p99) {
+    let error = match (
+        material.predicted.error_px_p99,
+        material.predicted.error_texels_p99,
+    ) {
         (Some(px), Some(texels)) => format!("error p99 {} px, {} texels", Short(px), Short(texels)),
         _ => "no error to predict: nothing of it is seen".to_owned(),
     };
@@ -109,7 +141,11 @@ impl fmt::Display for Short {
         }
         let decimals = (3 - magnitude.log10().floor() as i32).clamp(0, 6) as usize;
         let text = format!("{:.decimals$}", self.0);
-        out.write_str(if decimals > 0 { text.trim_end_matches('0').trim_end_matches('.') } else { &text })
+        out.write_str(if decimals > 0 {
+            text.trim_end_matches('0').trim_end_matches('.')
+        } else {
+            &text
+        })
     }
 }
 
@@ -121,7 +157,15 @@ mod tests {
     fn four_digits() {
         let shown = |x| Short(x).to_string();
         assert_eq!(
-            [shown(0.0), shown(1.0), shown(0.019_999_7), shown(123.456), shown(98765.4), shown(2.5e-7), shown(f64::INFINITY)],
+            [
+                shown(0.0),
+                shown(1.0),
+                shown(0.019_999_7),
+                shown(123.456),
+                shown(98765.4),
+                shown(2.5e-7),
+                shown(f64::INFINITY)
+            ],
             ["0", "1", "0.02", "123.5", "98765", "2.500e-7", "inf"]
         );
     }

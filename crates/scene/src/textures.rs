@@ -56,33 +56,72 @@ impl Texture {
     /// One texel of floats.
     #[must_use]
     pub fn constant(rgba: [f32; 4]) -> Self {
-        Self { levels: vec![Level { width: 1, height: 1, texels: Texels::Rgba32Float(vec![rgba]) }] }
+        Self {
+            levels: vec![Level {
+                width: 1,
+                height: 1,
+                texels: Texels::Rgba32Float(vec![rgba]),
+            }],
+        }
     }
 
     /// One height.
     #[must_use]
     pub fn constant_height(height: f32) -> Self {
-        Self { levels: vec![Level { width: 1, height: 1, texels: Texels::R32Float(vec![height]) }] }
+        Self {
+            levels: vec![Level {
+                width: 1,
+                height: 1,
+                texels: Texels::R32Float(vec![height]),
+            }],
+        }
     }
 
     /// One texel of bytes.
     #[must_use]
     pub fn constant_bytes(rgba: [u8; 4]) -> Self {
-        Self { levels: vec![Level { width: 1, height: 1, texels: Texels::Rgba8Unorm(vec![rgba]) }] }
+        Self {
+            levels: vec![Level {
+                width: 1,
+                height: 1,
+                texels: Texels::Rgba8Unorm(vec![rgba]),
+            }],
+        }
     }
 
     pub(crate) fn color(map: &ColorMap) -> Self {
-        let level = |map: &ColorMap| Level { width: map.width, height: map.height, texels: Texels::Rgba32Float(map.to_linear()) };
-        Self { levels: mips::color_chain(map).iter().map(level).collect() }
+        let level = |map: &ColorMap| Level {
+            width: map.width,
+            height: map.height,
+            texels: Texels::Rgba32Float(map.to_linear()),
+        };
+        Self {
+            levels: mips::color_chain(map).iter().map(level).collect(),
+        }
     }
 
     pub(crate) fn normal(map: &NormalMap) -> Self {
-        let level = |map: NormalMap| Level { width: map.width, height: map.height, texels: Texels::Rgba8Unorm(map.texels) };
-        Self { levels: mips::normal_chain(map, mips::NormalMips::default()).into_iter().map(level).collect() }
+        let level = |map: NormalMap| Level {
+            width: map.width,
+            height: map.height,
+            texels: Texels::Rgba8Unorm(map.texels),
+        };
+        Self {
+            levels: mips::normal_chain(map, mips::NormalMips::default())
+                .into_iter()
+                .map(level)
+                .collect(),
+        }
     }
 
     pub(crate) fn height(field: &HeightField) -> Self {
-        let level = |field: HeightField| Level { width: field.width, height: field.height, texels: Texels::R32Float(field.texels) };
-        Self { levels: mips::height_chain(field).into_iter().map(level).collect() }
+        let level = |field: HeightField| Level {
+            width: field.width,
+            height: field.height,
+            texels: Texels::R32Float(field.texels),
+        };
+        Self {
+            levels: mips::height_chain(field).into_iter().map(level).collect(),
+        }
     }
 }

@@ -71,9 +71,19 @@ impl View {
     pub(crate) fn new(camera: &Camera, object: &Object) -> Self {
         let matrices = Matrices::new(camera, object);
         let normal_matrix = matrices.cofactor * matrices.handedness;
-        let triangles: Vec<Triangle> = object.mesh.triangles().map(|corners| Triangle::new(object, &matrices, corners)).collect();
+        let triangles: Vec<Triangle> = object
+            .mesh
+            .triangles()
+            .map(|corners| Triangle::new(object, &matrices, corners))
+            .collect();
         let clip = camera.clip_from_world();
-        let mut view = Self { camera: *camera, matrices, normal_matrix, triangles, facets: Vec::new() };
+        let mut view = Self {
+            camera: *camera,
+            matrices,
+            normal_matrix,
+            triangles,
+            facets: Vec::new(),
+        };
         for index in 0..view.triangles.len() {
             view.add_facets(&clip, index);
         }
@@ -84,8 +94,11 @@ impl View {
     fn add_facets(&mut self, clip_from_world: &DMat4, triangle: usize) {
         let corners = self.triangles[triangle].position;
         let barys = [DVec3::X, DVec3::Y, DVec3::Z];
-        let start: Vec<(DVec4, DVec3)> =
-            corners.iter().zip(barys).map(|(corner, bary)| (*clip_from_world * corner.extend(1.0), bary)).collect();
+        let start: Vec<(DVec4, DVec3)> = corners
+            .iter()
+            .zip(barys)
+            .map(|(corner, bary)| (*clip_from_world * corner.extend(1.0), bary))
+            .collect();
         let polygon = clip(start);
         for second in 1..polygon.len().saturating_sub(1) {
             self.push_facet(triangle, [polygon[0], polygon[second], polygon[second + 1]]);
@@ -95,11 +108,19 @@ impl View {
     fn push_facet(&mut self, triangle: usize, corners: [(DVec4, DVec3); 3]) {
         let half = self.camera.half_size_px();
         let screen_px = corners.map(|(clip, _)| clip.xy() / clip.w * half);
-        let area = 0.5 * (screen_px[1] - screen_px[0]).perp_dot(screen_px[2] - screen_px[0]).abs();
+        let area = 0.5
+            * (screen_px[1] - screen_px[0])
+                .perp_dot(screen_px[2] - screen_px[0])
+                .abs();
         if area > 0.0 {
             let area_to_here_px = self.area_px() + area;
             let (bary, depth) = (corners.map(|(_, bary)| bary), corners.map(|(clip, _)| clip.w));
-            self.facets.push(Facet { triangle, bary, depth, area_to_here_px });
+            self.facets.push(Facet {
+                triangle,
+                bary,
+                depth,
+                area_to_here_px,
+            });
         }
     }
 
@@ -109,14 +130,28 @@ impl View {
 
     /// The footprint, none when nothing is inside the view volume.
     pub(crate) fn footprint(&self) -> Option<Footprint> {
-        let nearest_depth = self.facets.iter().flat_map(|facet| facet.depth).min_by(f64::total_cmp)?;
-        let tile_px = self.facets.iter().map(|facet| self.tile_px(facet).max_element()).fold(0.0, f64::max);
-        Some(Footprint { area_px: self.area_px(), nearest_depth, tile_px })
+        let nearest_depth = self
+            .facets
+            .iter()
+            .flat_map(|facet| facet.depth)
+            .min_by(f64::total_cmp)?;
+        let tile_px = self
+            .facets
+            .iter()
+            .map(|facet| self.tile_px(facet).max_element())
+            .fold(0.0, f64::max);
+        Some(Footprint {
+            area_px: self.area_px(),
+            nearest_depth,
+            tile_px,
+        })
     }
 
     /// Pixels that a tile spans along u and v at the facet's nearest corner, seen from straight above.
     fn tile_px(&self, facet: &Facet) -> DVec2 {
-        let Some([along_u, along_v]) = self.triangles[facet.triangle].per_uv else { return DVec2::ZERO };
+        let Some([along_u, along_v]) = self.triangles[facet.triangle].per_uv else {
+            return DVec2::ZERO;
+        };
         let nearest = facet.depth.into_iter().fold(f64::INFINITY, f64::min);
         DVec2::new(along_u.length(), along_v.length()) * self.camera.focal_px() / nearest
     }
@@ -127,10 +162,17 @@ impl View {
     pub(crate) fn displacement_px(&self, elevation_uv: DVec2) -> f64 {
         let stretch = (1.0 + (self.camera.half_size_px() / self.camera.focal_px()).length_squared()).sqrt();
         let one = |facet: &Facet| {
-            let Some([along_u, along_v]) = self.triangles[facet.triangle].per_uv else { return 0.0 };
-            let raised = (elevation_uv.x.abs() * along_u.length()).max(elevation_uv.y.abs() * along_v.length());
+            let Some([along_u, along_v]) = self.triangles[facet.triangle].per_uv else {
+                return 0.0;
+            };
+            let raised =
+                (elevation_uv.x.abs() * along_u.length()).max(elevation_uv.y.abs() * along_v.length());
             let nearest = facet.depth.into_iter().fold(f64::INFINITY, f64::min);
-            if raised < nearest { self.camera.focal_px() * stretch * raised / (nearest - raised) } else { f64::INFINITY }
+            if raised < nearest {
+                self.camera.focal_px() * stretch * raised / (nearest - raised)
+            } else {
+                f64::INFINITY
+            }
         };
         self.facets.iter().map(one).fold(0.0, f64::max)
     }
@@ -140,14 +182,21 @@ impl View {
         (0..count).filter_map(|index| {
             let [along_area, a, b] = low_discrepancy(index);
             let target = along_area * self.area_px();
-            let facet = self.facets.get(self.facets.partition_point(|facet| facet.area_to_here_px <= target))?;
+            let facet = self.facets.get(
+                self.facets
+                    .partition_point(|facet| facet.area_to_here_px <= target),
+            )?;
             self.ray(facet, in_triangle(a, b))
         })
     }
 
     /// The ray through a point of a facet given by its barycentric coordinates on screen.
     fn ray(&self, facet: &Facet, on_screen: DVec3) -> Option<ViewRay> {
-        let weight = DVec3::new(on_screen.x / facet.depth[0], on_screen.y / facet.depth[1], on_screen.z / facet.depth[2]);
+        let weight = DVec3::new(
+            on_screen.x / facet.depth[0],
+            on_screen.y / facet.depth[1],
+            on_screen.z / facet.depth[2],
+        );
         let weight = weight / weight.element_sum();
         let bary = facet.bary[0] * weight.x + facet.bary[1] * weight.y + facet.bary[2] * weight.z;
         let triangle = &self.triangles[facet.triangle];
@@ -157,14 +206,23 @@ impl View {
         let bitangent = normal.cross(tangent) * at.tangent.w.signum() * self.matrices.handedness;
         let view = (self.camera.position - at.position).try_normalize()?;
         let view_ts = DVec3::new(tangent.dot(view), bitangent.dot(view), normal.dot(view)).try_normalize()?;
-        let px_per_uv = triangle.per_uv?.map(|along| self.screen_derivative(at.position, along));
-        (view_ts.z > 0.0).then_some(ViewRay { uv: at.uv, view_ts, px_per_uv })
+        let px_per_uv = triangle
+            .per_uv?
+            .map(|along| self.screen_derivative(at.position, along));
+        (view_ts.z > 0.0).then_some(ViewRay {
+            uv: at.uv,
+            view_ts,
+            px_per_uv,
+        })
     }
 
     /// d(screen)/d(world) along a world vector, pixels.
     fn screen_derivative(&self, at: DVec3, along: DVec3) -> DVec2 {
         let clip_from_world = self.camera.clip_from_world();
-        let (point, step) = (clip_from_world * at.extend(1.0), clip_from_world * along.extend(0.0));
+        let (point, step) = (
+            clip_from_world * at.extend(1.0),
+            clip_from_world * along.extend(0.0),
+        );
         let ndc = point.xy() / point.w;
         (step.xy() - ndc * step.w) / point.w * self.camera.half_size_px()
     }
@@ -181,7 +239,11 @@ struct At {
 impl Triangle {
     fn new(object: &Object, matrices: &Matrices, corners: [usize; 3]) -> Self {
         let mesh = &object.mesh;
-        let position = corners.map(|i| matrices.world_from_local.transform_point3(mesh.positions[i].as_dvec3()));
+        let position = corners.map(|i| {
+            matrices
+                .world_from_local
+                .transform_point3(mesh.positions[i].as_dvec3())
+        });
         let uv = corners.map(|i| mesh.uvs[i].as_dvec2());
         Self {
             position,
@@ -194,7 +256,12 @@ impl Triangle {
 
     fn at(&self, bary: DVec3) -> At {
         let b = bary.to_array();
-        let mut at = At { position: DVec3::ZERO, normal: DVec3::ZERO, tangent: DVec4::ZERO, uv: DVec2::ZERO };
+        let mut at = At {
+            position: DVec3::ZERO,
+            normal: DVec3::ZERO,
+            tangent: DVec4::ZERO,
+            uv: DVec2::ZERO,
+        };
         for (corner, &weight) in b.iter().enumerate() {
             at.position += weight * self.position[corner];
             at.normal += weight * self.normal[corner];
@@ -216,8 +283,14 @@ fn world_per_uv(position: [DVec3; 3], uv: [DVec2; 3]) -> Option<[DVec3; 2]> {
 
 /// Clips a convex polygon against the view volume −w ≤ x, y ≤ w, 0 ≤ z ≤ w (Sutherland and Hodgman).
 fn clip(polygon: Vec<(DVec4, DVec3)>) -> Vec<(DVec4, DVec3)> {
-    let planes: [fn(DVec4) -> f64; 6] =
-        [|p| p.w + p.x, |p| p.w - p.x, |p| p.w + p.y, |p| p.w - p.y, |p| p.z, |p| p.w - p.z];
+    let planes: [fn(DVec4) -> f64; 6] = [
+        |p| p.w + p.x,
+        |p| p.w - p.x,
+        |p| p.w + p.y,
+        |p| p.w - p.y,
+        |p| p.z,
+        |p| p.w - p.z,
+    ];
     planes.into_iter().fold(polygon, clip_plane)
 }
 
@@ -259,10 +332,21 @@ mod tests {
     fn clipping_cuts_at_the_near_plane() {
         // One corner behind the eye: the triangle becomes a quadrilateral, all of it at w > 0.
         let corner = |x, y, w: f64| (DVec4::new(x, y, w - 1.0, w), DVec3::X);
-        let kept = clip(vec![corner(0.0, 0.5, 2.0), corner(0.0, -0.5, 2.0), corner(0.0, 0.0, -2.0)]);
+        let kept = clip(vec![
+            corner(0.0, 0.5, 2.0),
+            corner(0.0, -0.5, 2.0),
+            corner(0.0, 0.0, -2.0),
+        ]);
         assert_eq!(kept.len(), 4);
         assert!(kept.iter().all(|(p, _)| p.z >= 0.0 && p.w > 0.0));
-        assert!(clip(vec![corner(9.0, 0.0, 2.0), corner(9.0, 1.0, 2.0), corner(8.0, 0.0, 2.0)]).is_empty());
+        assert!(
+            clip(vec![
+                corner(9.0, 0.0, 2.0),
+                corner(9.0, 1.0, 2.0),
+                corner(8.0, 0.0, 2.0)
+            ])
+            .is_empty()
+        );
     }
 
     #[test]

@@ -64,67 +64,398 @@ const fn case(
     says: &'static str,
     helps: &'static str,
 ) -> Case {
-    Case { from, to, at, field, says, helps }
+    Case {
+        from,
+        to,
+        at,
+        field,
+        says,
+        helps,
+    }
 }
 
 const CASES: &[Case] = &[
     // Keys.
-    case("ambient", "ambinet", "ambinet", "ambinet", "unknown key", "did you mean `ambient`?"),
-    case("shininess =", "roughness =", "roughness", "materials[0].roughness", "unknown key `roughness`", "keys of `materials[0]`"),
-    case("fov_deg = 45.0\n", "", "[camera]", "camera.fov_deg", "`fov_deg` is missing", "add `fov_deg`"),
-    case("schema = 1\n", "", "ambient", "schema", "`schema` is missing", "add `schema = 1`"),
-    case("schema = 1", "schema = 2", "2\n", "schema", "schema 2 is not known", "reads schema 1"),
+    case(
+        "ambient",
+        "ambinet",
+        "ambinet",
+        "ambinet",
+        "unknown key",
+        "did you mean `ambient`?",
+    ),
+    case(
+        "shininess =",
+        "roughness =",
+        "roughness",
+        "materials[0].roughness",
+        "unknown key `roughness`",
+        "keys of `materials[0]`",
+    ),
+    case(
+        "fov_deg = 45.0\n",
+        "",
+        "[camera]",
+        "camera.fov_deg",
+        "`fov_deg` is missing",
+        "add `fov_deg`",
+    ),
+    case(
+        "schema = 1\n",
+        "",
+        "ambient",
+        "schema",
+        "`schema` is missing",
+        "add `schema = 1`",
+    ),
+    case(
+        "schema = 1",
+        "schema = 2",
+        "2\n",
+        "schema",
+        "schema 2 is not known",
+        "reads schema 1",
+    ),
     // Types.
-    case("fov_deg = 45.0", "fov_deg = \"wide\"", "\"wide\"", "camera.fov_deg", "expected a number, found a string", "write a number"),
-    case("[64, 48]", "[64.5, 48]", "64.5", "camera.size[0]", "expected a whole number, found a float", "whole number"),
-    case("[0.0, 0.0, 3.0]", "[0.0, 0.0]", "[0.0, 0.0]\n", "camera.position", "expected 3 numbers, found 2", "array of 3 numbers"),
-    case("material = \"bricks\"", "material = 0", "0\nscale", "objects[0].material", "expected a string, found an integer", "string"),
+    case(
+        "fov_deg = 45.0",
+        "fov_deg = \"wide\"",
+        "\"wide\"",
+        "camera.fov_deg",
+        "expected a number, found a string",
+        "write a number",
+    ),
+    case(
+        "[64, 48]",
+        "[64.5, 48]",
+        "64.5",
+        "camera.size[0]",
+        "expected a whole number, found a float",
+        "whole number",
+    ),
+    case(
+        "[0.0, 0.0, 3.0]",
+        "[0.0, 0.0]",
+        "[0.0, 0.0]\n",
+        "camera.position",
+        "expected 3 numbers, found 2",
+        "array of 3 numbers",
+    ),
+    case(
+        "material = \"bricks\"",
+        "material = 0",
+        "0\nscale",
+        "objects[0].material",
+        "expected a string, found an integer",
+        "string",
+    ),
     // Numbers.
-    case("fov_deg = 45.0", "fov_deg = 180.0", "180.0", "camera.fov_deg", "180 is out of range", "in (0, 180) degrees"),
-    case("fov_deg = 45.0", "fov_deg = nan", "nan", "camera.fov_deg", "NaN", "in (0, 180)"),
-    case("far = 10.0", "far = inf", "inf", "camera.far", "infinity", "greater than 0"),
-    case("far = 10.0", "far = 1e300", "1e300", "camera.far", "too large for a 32-bit float", "greater than 0"),
-    case("near = 0.1", "near = 10.0", "10.0\nfar", "camera.near", "near (10) is not less than far (10)", "make `near` smaller"),
-    case("near = 0.1", "near = -0.1", "-0.1", "camera.near", "-0.1 is out of range", "greater than 0"),
-    case("[64, 48]", "[64, 0]", "0]\n\n[budget", "camera.size[1]", "0 is out of range", "from 1 to 16384"),
-    case("[64, 48]", "[64, 20000]", "20000", "camera.size[1]", "20000 is out of range", "from 1 to 16384"),
-    case("up = [0.0, 1.0, 0.0]", "up = [0.0, 0.0, 2.0]", "[0.0, 0.0, 2.0]", "camera.up", "parallel to the viewing", "choose an `up`"),
-    case("position = [0.0, 0.0, 3.0]", "position = [0.0, 0.0, 0.0]", "[0.0, 0.0, 0.0]\nup", "camera.target", "own position", "move `target`"),
-    case("error_px = 1.0", "error_px = -1.0", "-1.0\n\n[[lights", "budget.error_px", "-1 is out of range", "greater than 0"),
-    case("color = [1.0, 1.0, 1.0]\nint", "color = [1.0, -2.0, 1.0]\nint", "-2.0", "lights[0].color[1]", "-2 is out of range", "0 or greater"),
-    case("[0.0, 0.0, -1.0]", "[0.0, 0.0, 0.0]", "[0.0, 0.0, 0.0]\ncolor", "lights[0].direction", "length 0", "the way the light travels"),
-    case("scale = 0.04", "scale = 0.0", "0.0, bias", "materials[0].height.scale", "0 is out of range", "greater than 0"),
-    case("shininess = 32.0", "shininess = 1e6", "1e6", "materials[0].shininess", "1000000 is out of range", "at most 65536"),
-    case("cutoff = 0.5", "cutoff = 1.5", "1.5", "materials[0].alpha.cutoff", "1.5 is out of range", "in (0, 1]"),
-    case("scale = [1.0, 1.0, 1.0]", "scale = [1.0, 0.0, 1.0]", "0.0, 1.0]\n", "objects[0].scale[1]", "0 is out of range", "not 0"),
+    case(
+        "fov_deg = 45.0",
+        "fov_deg = 180.0",
+        "180.0",
+        "camera.fov_deg",
+        "180 is out of range",
+        "in (0, 180) degrees",
+    ),
+    case(
+        "fov_deg = 45.0",
+        "fov_deg = nan",
+        "nan",
+        "camera.fov_deg",
+        "NaN",
+        "in (0, 180)",
+    ),
+    case(
+        "far = 10.0",
+        "far = inf",
+        "inf",
+        "camera.far",
+        "infinity",
+        "greater than 0",
+    ),
+    case(
+        "far = 10.0",
+        "far = 1e300",
+        "1e300",
+        "camera.far",
+        "too large for a 32-bit float",
+        "greater than 0",
+    ),
+    case(
+        "near = 0.1",
+        "near = 10.0",
+        "10.0\nfar",
+        "camera.near",
+        "near (10) is not less than far (10)",
+        "make `near` smaller",
+    ),
+    case(
+        "near = 0.1",
+        "near = -0.1",
+        "-0.1",
+        "camera.near",
+        "-0.1 is out of range",
+        "greater than 0",
+    ),
+    case(
+        "[64, 48]",
+        "[64, 0]",
+        "0]\n\n[budget",
+        "camera.size[1]",
+        "0 is out of range",
+        "from 1 to 16384",
+    ),
+    case(
+        "[64, 48]",
+        "[64, 20000]",
+        "20000",
+        "camera.size[1]",
+        "20000 is out of range",
+        "from 1 to 16384",
+    ),
+    case(
+        "up = [0.0, 1.0, 0.0]",
+        "up = [0.0, 0.0, 2.0]",
+        "[0.0, 0.0, 2.0]",
+        "camera.up",
+        "parallel to the viewing",
+        "choose an `up`",
+    ),
+    case(
+        "position = [0.0, 0.0, 3.0]",
+        "position = [0.0, 0.0, 0.0]",
+        "[0.0, 0.0, 0.0]\nup",
+        "camera.target",
+        "own position",
+        "move `target`",
+    ),
+    case(
+        "error_px = 1.0",
+        "error_px = -1.0",
+        "-1.0\n\n[[lights",
+        "budget.error_px",
+        "-1 is out of range",
+        "greater than 0",
+    ),
+    case(
+        "color = [1.0, 1.0, 1.0]\nint",
+        "color = [1.0, -2.0, 1.0]\nint",
+        "-2.0",
+        "lights[0].color[1]",
+        "-2 is out of range",
+        "0 or greater",
+    ),
+    case(
+        "[0.0, 0.0, -1.0]",
+        "[0.0, 0.0, 0.0]",
+        "[0.0, 0.0, 0.0]\ncolor",
+        "lights[0].direction",
+        "length 0",
+        "the way the light travels",
+    ),
+    case(
+        "scale = 0.04",
+        "scale = 0.0",
+        "0.0, bias",
+        "materials[0].height.scale",
+        "0 is out of range",
+        "greater than 0",
+    ),
+    case(
+        "shininess = 32.0",
+        "shininess = 1e6",
+        "1e6",
+        "materials[0].shininess",
+        "1000000 is out of range",
+        "at most 65536",
+    ),
+    case(
+        "cutoff = 0.5",
+        "cutoff = 1.5",
+        "1.5",
+        "materials[0].alpha.cutoff",
+        "1.5 is out of range",
+        "in (0, 1]",
+    ),
+    case(
+        "scale = [1.0, 1.0, 1.0]",
+        "scale = [1.0, 0.0, 1.0]",
+        "0.0, 1.0]\n",
+        "objects[0].scale[1]",
+        "0 is out of range",
+        "not 0",
+    ),
     // Words.
-    case("\"directional\"", "\"directonal\"", "\"directonal\"", "lights[0].kind", "`directonal` is not known", "did you mean `directional`?"),
-    case("\"auto\"", "\"paralax_offset\"", "\"paralax", "materials[0].technique", "not known", "did you mean `parallax_offset`?"),
-    case("codec = \"unorm\"", "codec = \"snorm\"", "\"snorm\"", "materials[0].normal.codec", "not known", "did you mean `unorm`?"),
-    case(", codec = \"unorm\"", "", "{ map = \"normal", "materials[0].normal.codec", "`codec` is missing", "as the map is written"),
-    case("\"wrap\"", "\"repeat\"", "\"repeat\"", "materials[0].address", "not known", "`wrap`, `mirror`, `clamp`"),
-    case("\"plane\"", "\"plain\"", "\"plain\"", "objects[0].shape", "not known", "did you mean `plane`?"),
-    case("material = \"bricks\"", "material = \"brick\"", "\"brick\"", "objects[0].material", "no material `brick`", "did you mean `bricks`?"),
-    case("name = \"wall\"", "name = \" \"", "\" \"", "objects[0].name", "empty", "not blank"),
+    case(
+        "\"directional\"",
+        "\"directonal\"",
+        "\"directonal\"",
+        "lights[0].kind",
+        "`directonal` is not known",
+        "did you mean `directional`?",
+    ),
+    case(
+        "\"auto\"",
+        "\"paralax_offset\"",
+        "\"paralax",
+        "materials[0].technique",
+        "not known",
+        "did you mean `parallax_offset`?",
+    ),
+    case(
+        "codec = \"unorm\"",
+        "codec = \"snorm\"",
+        "\"snorm\"",
+        "materials[0].normal.codec",
+        "not known",
+        "did you mean `unorm`?",
+    ),
+    case(
+        ", codec = \"unorm\"",
+        "",
+        "{ map = \"normal",
+        "materials[0].normal.codec",
+        "`codec` is missing",
+        "as the map is written",
+    ),
+    case(
+        "\"wrap\"",
+        "\"repeat\"",
+        "\"repeat\"",
+        "materials[0].address",
+        "not known",
+        "`wrap`, `mirror`, `clamp`",
+    ),
+    case(
+        "\"plane\"",
+        "\"plan\"",
+        "\"plan\"",
+        "objects[0].shape",
+        "not known",
+        "did you mean `plane`?",
+    ),
+    case(
+        "material = \"bricks\"",
+        "material = \"brick\"",
+        "\"brick\"",
+        "objects[0].material",
+        "no material `brick`",
+        "did you mean `bricks`?",
+    ),
+    case(
+        "name = \"wall\"",
+        "name = \" \"",
+        "\" \"",
+        "objects[0].name",
+        "empty",
+        "not blank",
+    ),
     // Keys that do not go together.
-    case("size = [2.0, 2.0]", "radius = 2.0", "2.0\nmaterial", "objects[0].radius", "a plane has no `radius`", "a plane has `size`"),
-    case("intensity = 1.0", "position = [0.0, 0.0, 0.0]", "[0.0, 0.0, 0.0]\n\n", "lights[0].position", "has no position", "`kind = \"point\"`"),
-    case(", bias = -0.02", ", depth = 0.1", "0.04", "materials[0].height.scale", "does not go with world", "give either"),
-    case(", bias = -0.02", "", "{ map = \"height", "materials[0].height.bias", "`bias` is missing", "`-scale`"),
-    case("\"mask\"", "\"opaque\"", "0.5 }", "materials[0].alpha.cutoff", "an opaque material has no cutoff", "set mode to `mask`"),
-    case("{ map = \"normal.png\"", "{ map = \"normal.png\", bake = \"central\"", "\"normal.png\", b", "materials[0].normal.map", "does not go with `bake`", "give a `map`"),
+    case(
+        "size = [2.0, 2.0]",
+        "radius = 2.0",
+        "2.0\nmaterial",
+        "objects[0].radius",
+        "a plane has no `radius`",
+        "a plane has `size`",
+    ),
+    case(
+        "intensity = 1.0",
+        "position = [0.0, 0.0, 0.0]",
+        "[0.0, 0.0, 0.0]\n\n",
+        "lights[0].position",
+        "has no position",
+        "`kind = \"point\"`",
+    ),
+    case(
+        ", bias = -0.02",
+        ", depth = 0.1",
+        "0.04",
+        "materials[0].height.scale",
+        "does not go with world",
+        "give either",
+    ),
+    case(
+        ", bias = -0.02",
+        "",
+        "{ map = \"height",
+        "materials[0].height.bias",
+        "`bias` is missing",
+        "`-scale`",
+    ),
+    case(
+        "\"mask\"",
+        "\"opaque\"",
+        "0.5 }",
+        "materials[0].alpha.cutoff",
+        "an opaque material has no cutoff",
+        "set mode to `mask`",
+    ),
+    case(
+        "{ map = \"normal.png\"",
+        "{ map = \"normal.png\", bake = \"central\"",
+        "\"normal.png\", b",
+        "materials[0].normal.map",
+        "does not go with `bake`",
+        "give a `map`",
+    ),
     // Files.
-    case("color.png", "colour.png", "\"colour.png\"", "materials[0].albedo.map", "cannot be read", "paths start at the scene's folder"),
-    case("color.png", "empty.png", "\"empty.png\"", "materials[0].albedo.map", "empty", "images:"),
-    case("color.png", "cut.png", "\"cut.png\"", "materials[0].albedo.map", "truncated", "images:"),
-    case("color.png", "scene.toml", "\"scene.toml\"", "materials[0].albedo.map", "not an image", "images:"),
-    case("normal.png", "height.png", "\"height.png\", codec", "materials[0].normal.map", "red, green and blue", "image with red"),
-    case("height.png\"", "height.png\", channel = \"alpha\"", "\"height.png\", ch", "materials[0].height.map", "no alpha channel", "heights"),
+    case(
+        "color.png",
+        "colour.png",
+        "\"colour.png\"",
+        "materials[0].albedo.map",
+        "cannot be read",
+        "paths start at the scene's folder",
+    ),
+    case(
+        "color.png",
+        "empty.png",
+        "\"empty.png\"",
+        "materials[0].albedo.map",
+        "empty",
+        "images:",
+    ),
+    case(
+        "color.png",
+        "cut.png",
+        "\"cut.png\"",
+        "materials[0].albedo.map",
+        "truncated",
+        "images:",
+    ),
+    case(
+        "color.png",
+        "scene.toml",
+        "\"scene.toml\"",
+        "materials[0].albedo.map",
+        "not an image",
+        "images:",
+    ),
+    case(
+        "normal.png",
+        "height.png",
+        "\"height.png\", codec",
+        "materials[0].normal.map",
+        "red, green and blue",
+        "image with red",
+    ),
+    case(
+        "height.png\"",
+        "height.png\", channel = \"alpha\"",
+        "\"height.png\", ch",
+        "materials[0].height.map",
+        "no alpha channel",
+        "heights",
+    ),
 ];
 
 fn folder() -> Folder {
     let folder = Folder::new();
-    folder.color("color.png", |x, y| [x as u8 * 30, y as u8 * 30, 9, if x == y { 0 } else { 255 }]);
+    folder.color("color.png", |x, y| {
+        [x as u8 * 30, y as u8 * 30, 9, if x == y { 0 } else { 255 }]
+    });
     folder.normal("normal.png", |x, _| [100 + x as u8, 128, 250]);
     folder.height("height.png", |x, y| (x + y) as f32 / 14.0);
     folder.write("empty.png", b"");
@@ -136,14 +467,21 @@ fn folder() -> Folder {
 #[test]
 fn the_good_scene_is_good() {
     let scene = folder().scene(GOOD);
-    assert_eq!((scene.materials.len(), scene.objects.len(), scene.lights.len()), (1, 1, 1));
+    assert_eq!(
+        (scene.materials.len(), scene.objects.len(), scene.lights.len()),
+        (1, 1, 1)
+    );
 }
 
 #[test]
 fn each_mistake_is_shown_where_it_is() {
     let folder = folder();
     for case in CASES {
-        assert!(GOOD.contains(case.from), "the case no longer fits the good scene: {}", case.from);
+        assert!(
+            GOOD.contains(case.from),
+            "the case no longer fits the good scene: {}",
+            case.from
+        );
         let text = GOOD.replacen(case.from, case.to, 1);
         check(&folder, &text, case);
     }
@@ -153,17 +491,29 @@ fn check(folder: &Folder, text: &str, case: &Case) {
     let error = folder.load(text).expect_err(case.to);
     let shown = error.to_string();
     let problems = error.problems();
-    assert!(problems.iter().any(|problem| problem.field == case.field), "{}:\n{shown}", case.field);
-    let problem = problems.iter().find(|problem| problem.field == case.field).expect("asserted above");
+    assert!(
+        problems.iter().any(|problem| problem.field == case.field),
+        "{}:\n{shown}",
+        case.field
+    );
+    let problem = problems
+        .iter()
+        .find(|problem| problem.field == case.field)
+        .expect("asserted above");
     assert!(problem.message.contains(case.says), "{}\n{shown}", case.says);
     assert!(problem.hint.contains(case.helps), "{}\n{shown}", case.helps);
 
-    let at = text.find(case.at).unwrap_or_else(|| panic!("`{}` is not in the broken scene", case.at));
+    let at = text
+        .find(case.at)
+        .unwrap_or_else(|| panic!("`{}` is not in the broken scene", case.at));
     let line = text[..at].matches('\n').count() + 1;
     let column = at - text[..at].rfind('\n').map_or(0, |newline| newline + 1) + 1;
     assert_eq!((problem.line, problem.column), (line, column), "{shown}");
     assert!(shown.contains(&format!("scene.toml:{line}:{column}")), "{shown}");
-    assert!(shown.contains(&format!("`{}`", case.field)) && shown.contains("help: "), "{shown}");
+    assert!(
+        shown.contains(&format!("`{}`", case.field)) && shown.contains("help: "),
+        "{shown}"
+    );
     let source = text.lines().nth(line - 1).expect("the line was counted");
     assert!(shown.contains(source.trim()) && shown.contains('^'), "{shown}");
 }
@@ -195,8 +545,20 @@ fn all_mistakes_are_reported_in_file_order() {
         .replacen("\"plane\"", "\"disc\"", 1)
         .replacen("intensity", "intenisty", 1);
     let error = folder().load(&text).expect_err("four mistakes");
-    let fields: Vec<&str> = error.problems().iter().map(|problem| problem.field.as_str()).collect();
-    assert_eq!(fields, ["camera.fov_deg", "lights[0].intenisty", "materials[0].albedo.map", "objects[0].shape"]);
+    let fields: Vec<&str> = error
+        .problems()
+        .iter()
+        .map(|problem| problem.field.as_str())
+        .collect();
+    assert_eq!(
+        fields,
+        [
+            "camera.fov_deg",
+            "lights[0].intenisty",
+            "materials[0].albedo.map",
+            "objects[0].shape"
+        ]
+    );
 }
 
 #[test]
@@ -213,40 +575,72 @@ fn names_are_unique() {
     let text = format!("{GOOD}\n[[objects]]\nname = \"wall\"\nshape = \"cube\"\nmaterial = \"bricks\"\n");
     let error = folder().load(&text).expect_err("two walls");
     let problem = &error.problems()[0];
-    assert_eq!((problem.field.as_str(), error.problems().len()), ("objects[1].name", 1), "{error}");
-    assert!(problem.message.contains("`wall` is already that of `objects[0]`"), "{error}");
+    assert_eq!(
+        (problem.field.as_str(), error.problems().len()),
+        ("objects[1].name", 1),
+        "{error}"
+    );
+    assert!(
+        problem.message.contains("`wall` is already that of `objects[0]`"),
+        "{error}"
+    );
 }
 
 #[test]
 fn a_pin_names_the_map_it_lacks() {
     let pinned = GOOD.replacen("\"auto\"", "\"parallax_offset\"", 1);
     assert!(folder().load(&pinned).is_ok());
-    let without_height = pinned.replacen("height = { map = \"height.png\", scale = 0.04, bias = -0.02 }\n", "", 1);
+    let without_height = pinned.replacen(
+        "height = { map = \"height.png\", scale = 0.04, bias = -0.02 }\n",
+        "",
+        1,
+    );
     let error = folder().load(&without_height).expect_err("no height map");
     assert_eq!(error.problems()[0].field, "materials[0].technique");
-    assert!(error.problems()[0].message.contains("needs `materials[0].height`"), "{error}");
-    let without_texture = pinned
-        .replacen(", map = \"color.png\"", "", 1)
-        .replacen("normal = { map = \"normal.png\", codec = \"unorm\" }\n", "", 1);
+    assert!(
+        error.problems()[0]
+            .message
+            .contains("needs `materials[0].height`"),
+        "{error}"
+    );
+    let without_texture = pinned.replacen(", map = \"color.png\"", "", 1).replacen(
+        "normal = { map = \"normal.png\", codec = \"unorm\" }\n",
+        "",
+        1,
+    );
     let error = folder().load(&without_texture).expect_err("nothing to displace");
-    assert!(error.problems()[0].message.contains("nothing to displace"), "{error}");
+    assert!(
+        error.problems()[0].message.contains("nothing to displace"),
+        "{error}"
+    );
 }
 
 #[test]
 fn object_space_refuses_a_scale_that_bends_angles() {
     let object_space = GOOD.replacen("technique = \"auto\"", "lighting_space = \"object\"", 1);
-    assert!(folder().load(&object_space.replacen("scale = [1.0, 1.0, 1.0]", "scale = [-2.0, 2.0, 2.0]", 1)).is_ok());
-    let error = folder().load(&object_space.replacen("scale = [1.0, 1.0, 1.0]", "scale = [1.0, 2.0, 1.0]", 1));
+    assert!(
+        folder()
+            .load(&object_space.replacen("scale = [1.0, 1.0, 1.0]", "scale = [-2.0, 2.0, 2.0]", 1))
+            .is_ok()
+    );
+    let error =
+        folder().load(&object_space.replacen("scale = [1.0, 1.0, 1.0]", "scale = [1.0, 2.0, 1.0]", 1));
     let error = error.expect_err("a stretched object");
     assert_eq!(error.problems()[0].field, "objects[0].scale", "{error}");
 }
 
 #[test]
 fn too_many_lights_and_no_objects() {
-    let light = |i: usize| format!("[[lights]]\nname = \"l{i}\"\nkind = \"point\"\nposition = [0.0, 0.0, 1.0]\n");
+    let light =
+        |i: usize| format!("[[lights]]\nname = \"l{i}\"\nkind = \"point\"\nposition = [0.0, 0.0, 1.0]\n");
     let lights: String = (0..16).map(light).collect();
     let error = folder().load(&format!("{GOOD}{lights}")).expect_err("17 lights");
-    assert!(error.problems()[0].message.contains("17 lights; the shader's array holds 16"), "{error}");
+    assert!(
+        error.problems()[0]
+            .message
+            .contains("17 lights; the shader's array holds 16"),
+        "{error}"
+    );
     let alone = GOOD.split("[[objects]]").next().expect("text before the objects");
     let error = folder().load(alone).expect_err("no objects");
     assert_eq!(error.problems()[0].field, "objects");
@@ -257,8 +651,18 @@ fn meshes_are_checked() {
     let folder = folder();
     folder.write("bare.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder.write("far.obj", b"v 0 0 0\nvt 0 0\nf 1/1 2/1 9/1\n");
-    let with = |file: &str| GOOD.replacen("shape = \"plane\"\nsize = [2.0, 2.0]", &format!("shape = \"obj\"\nfile = \"{file}\""), 1);
-    for (file, says) in [("bare.obj", "no texture coordinates"), ("far.obj", "far.obj:3"), ("gone.obj", "cannot be read")] {
+    let with = |file: &str| {
+        GOOD.replacen(
+            "shape = \"plane\"\nsize = [2.0, 2.0]",
+            &format!("shape = \"obj\"\nfile = \"{file}\""),
+            1,
+        )
+    };
+    for (file, says) in [
+        ("bare.obj", "no texture coordinates"),
+        ("far.obj", "far.obj:3"),
+        ("gone.obj", "cannot be read"),
+    ] {
         let error = folder.load(&with(file)).expect_err(file);
         assert_eq!(error.problems()[0].field, "objects[0].file", "{error}");
         assert!(error.problems()[0].message.contains(says), "{error}");

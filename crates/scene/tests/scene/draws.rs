@@ -26,27 +26,49 @@ const UNIFORMS: [(&str, usize); 16] = [
 ];
 
 fn complete(draw: &Draw) {
-    let sizes: Vec<(&str, usize)> = draw.uniforms.iter().map(|(name, values)| (name.as_str(), values.len())).collect();
+    let sizes: Vec<(&str, usize)> = draw
+        .uniforms
+        .iter()
+        .map(|(name, values)| (name.as_str(), values.len()))
+        .collect();
     assert_eq!(sizes, UNIFORMS, "{}", draw.object);
-    assert!(draw.uniforms.values().flatten().all(|value| value.is_finite()), "{}", draw.object);
+    assert!(
+        draw.uniforms.values().flatten().all(|value| value.is_finite()),
+        "{}",
+        draw.object
+    );
     let names: Vec<&str> = draw.textures.keys().map(String::as_str).collect();
     assert_eq!(names, ["albedo_map", "height_map", "normal_map"]);
     for texture in draw.textures.values() {
         let last = texture.levels.last().expect("at least one level");
         assert_eq!((last.width, last.height), (1, 1));
-        assert!(texture.levels.iter().all(|level| level.texels.len() == level.width as usize * level.height as usize));
+        assert!(
+            texture
+                .levels
+                .iter()
+                .all(|level| level.texels.len() == level.width as usize * level.height as usize)
+        );
     }
     assert_eq!(draw.mesh.tangents.len(), draw.mesh.positions.len());
 }
 
 #[test]
 fn complete_for_the_plan_and_for_all_effects() {
-    for name in ["brick_wall.toml", "bumped_cube.toml", "elevation.toml", "gallery.toml", "nothing.toml"] {
+    for name in [
+        "brick_wall.toml",
+        "bumped_cube.toml",
+        "elevation.toml",
+        "gallery.toml",
+        "nothing.toml",
+    ] {
         let scene = example(name);
         let plan = plan(&scene);
         let planned = draws(&scene, &plan);
         let full = draws_with(&scene, |material| plan.features(material).all_effects());
-        assert_eq!((planned.len(), full.len()), (scene.objects.len(), scene.objects.len()));
+        assert_eq!(
+            (planned.len(), full.len()),
+            (scene.objects.len(), scene.objects.len())
+        );
         for (planned, full) in planned.iter().zip(&full) {
             complete(planned);
             complete(full);
@@ -80,8 +102,12 @@ fn what_a_material_lacks_is_neutral() {
     assert_eq!(texels("height_map"), Texels::R32Float(vec![0.0]));
     // The neutral normal decodes to (0, 0, 1): c·scale + bias with c = byte/255. Two roundings of numbers near 1, and the
     // three constants' own: 5 · 2^-24 < 3e-7.
-    let Texels::Rgba8Unorm(normal) = texels("normal_map") else { panic!("normal maps are bytes") };
-    let [scale, bias] = draw.uniforms["material.normal_decode"][..] else { panic!("two numbers") };
+    let Texels::Rgba8Unorm(normal) = texels("normal_map") else {
+        panic!("normal maps are bytes")
+    };
+    let [scale, bias] = draw.uniforms["material.normal_decode"][..] else {
+        panic!("two numbers")
+    };
     let decoded = normal[0].map(|byte| f32::from(byte) / 255.0 * scale + bias);
     for (got, want) in decoded.iter().zip([0.0, 0.0, 1.0]) {
         assert!((got - want).abs() < 3e-7, "{decoded:?}");
@@ -92,11 +118,18 @@ fn what_a_material_lacks_is_neutral() {
 fn a_constant_map_is_folded_into_the_colour() {
     let folder = Folder::new();
     folder.color("c.png", |_, _| [255, 0, 188, 255]);
-    let draw = single(&one_plane(SUN, "albedo = { map = \"c.png\", color = [0.5, 1.0, 0.25] }", ""), &folder);
+    let draw = single(
+        &one_plane(SUN, "albedo = { map = \"c.png\", color = [0.5, 1.0, 0.25] }", ""),
+        &folder,
+    );
     let light = bossage_assets::linear_from_srgb_byte(188);
     // Products of an f32 and a power of two: exact.
     assert_eq!(draw.uniforms["material.albedo"], [0.5, 0.0, 0.25 * light, 1.0]);
-    let scene = folder.scene(&one_plane(SUN, "albedo = { map = \"c.png\", color = [0.5, 1.0, 0.25] }", ""));
+    let scene = folder.scene(&one_plane(
+        SUN,
+        "albedo = { map = \"c.png\", color = [0.5, 1.0, 0.25] }",
+        "",
+    ));
     let full = draws_with(&scene, |_| FeatureSet::default().all_effects()).remove(0);
     assert_eq!(full.uniforms["material.albedo"], [0.5, 1.0, 0.25, 1.0]);
 }
@@ -104,9 +137,14 @@ fn a_constant_map_is_folded_into_the_colour() {
 #[test]
 fn constant_heights_displace_nothing_unless_pinned() {
     let folder = Folder::new();
-    folder.height("h.png", |_, _| 1.0).normal("n.png", |x, _| [x as u8 * 9, 128, 250]);
+    folder
+        .height("h.png", |_, _| 1.0)
+        .normal("n.png", |x, _| [x as u8 * 9, 128, 250]);
     let material = "normal = { map = \"n.png\", codec = \"unorm\" }\nheight = { map = \"h.png\", scale = 0.5, bias = -0.25 }";
-    let relief = |extra: &str| single(&one_plane(SUN, &format!("{material}\n{extra}"), ""), &folder).uniforms["material.relief"].clone();
+    let relief = |extra: &str| {
+        single(&one_plane(SUN, &format!("{material}\n{extra}"), ""), &folder).uniforms["material.relief"]
+            .clone()
+    };
     assert_eq!(relief(""), [0.0, 0.0, 1.0, 0.0]);
     assert_eq!(relief("technique = \"parallax_offset\""), [0.5, -0.25, 1.0, 0.0]);
 }
@@ -116,7 +154,10 @@ fn lights_come_in_lighting_space() {
     let folder = Folder::new();
     let draw = |space: &str, lights: &str| {
         let material = format!("lighting_space = \"{space}\"");
-        single(&one_plane(lights, &material, "translate = [0.0, 0.0, 0.5]\nscale = 2.0"), &folder)
+        single(
+            &one_plane(lights, &material, "translate = [0.0, 0.0, 0.5]\nscale = 2.0"),
+            &folder,
+        )
     };
     // World: toward the light, opposite to its direction.
     assert_eq!(draw("world", SUN).uniforms["light.vector"], [-0.0, 0.6, 0.8, 0.0]);
@@ -126,11 +167,21 @@ fn lights_come_in_lighting_space() {
     assert_eq!(object.features.space, LightingSpace::Object);
     let close = |got: &[f32], want: [f64; 3]| {
         // The f64 chain rounds some 20 times at magnitude 1; then one rounding to f32.
-        got.iter().zip(want).all(|(got, want)| (f64::from(*got) - want).abs() <= want.abs() * 2f64.powi(-24) + 1e-14)
+        got.iter()
+            .zip(want)
+            .all(|(got, want)| (f64::from(*got) - want).abs() <= want.abs() * 2f64.powi(-24) + 1e-14)
     };
-    assert!(close(&object.uniforms["view.eye"][..3], [0.0, -0.75 * sin, 0.75 * cos]), "{:?}", object.uniforms["view.eye"]);
+    assert!(
+        close(&object.uniforms["view.eye"][..3], [0.0, -0.75 * sin, 0.75 * cos]),
+        "{:?}",
+        object.uniforms["view.eye"]
+    );
     let turned = [0.0, 0.6 * cos - 0.8 * sin, 0.6 * sin + 0.8 * cos];
-    assert!(close(&object.uniforms["light.vector"][..3], turned), "{:?}", object.uniforms["light.vector"]);
+    assert!(
+        close(&object.uniforms["light.vector"][..3], turned),
+        "{:?}",
+        object.uniforms["light.vector"]
+    );
     assert_eq!(draw("object", LAMP).uniforms["light.vector"][3], 1.0);
 }
 
@@ -138,7 +189,10 @@ fn lights_come_in_lighting_space() {
 fn several_lights_are_listed_and_black_ones_left_out() {
     let folder = Folder::new();
     let dark = "[[lights]]\nname = \"off\"\nkind = \"point\"\nposition = [9.0, 9.0, 9.0]\nintensity = 0.0\n";
-    let draw = single(&one_plane(&format!("{SUN}{dark}{LAMP}intensity = 0.5\n"), "", ""), &folder);
+    let draw = single(
+        &one_plane(&format!("{SUN}{dark}{LAMP}intensity = 0.5\n"), "", ""),
+        &folder,
+    );
     assert_eq!(draw.uniforms["lights.count"][0], 2.0);
     let items = &draw.uniforms["lights.items"];
     assert_eq!(items[..8], [-0.0, 0.6, 0.8, 0.0, 1.0, 1.0, 1.0, 0.0]);
@@ -150,7 +204,10 @@ fn several_lights_are_listed_and_black_ones_left_out() {
 fn cofactor_and_handedness_of_a_mirrored_stretch() {
     let draw = single(&one_plane(SUN, "", "scale = [-2.0, 3.0, 1.0]"), &Folder::new());
     assert_eq!(draw.uniforms["object.handedness_sign"][0], -1.0);
-    let (world, cofactor) = (&draw.uniforms["object.world_from_local"], &draw.uniforms["object.cofactor"]);
+    let (world, cofactor) = (
+        &draw.uniforms["object.world_from_local"],
+        &draw.uniforms["object.cofactor"],
+    );
     let column = |m: &[f32], i: usize| glam::Vec3::from_slice(&m[4 * i..4 * i + 3]);
     // cof(M) e_z = M e_x × M e_y. Products of magnitude 6 of f32-rounded entries, three roundings each: 6 · 4 · 2^-24 < 2e-6.
     let expected = column(world, 0).cross(column(world, 1));

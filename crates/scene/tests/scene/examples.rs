@@ -7,11 +7,19 @@ use bossage_scene::{EffectId, MaterialPlan, Plan, State, plan};
 use crate::fixture::{example, only};
 
 fn kept(material: &MaterialPlan) -> Vec<&'static str> {
-    material.effects.iter().filter(|effect| effect.state == State::Kept).map(|effect| effect.id.as_str()).collect()
+    material
+        .effects
+        .iter()
+        .filter(|effect| effect.state == State::Kept)
+        .map(|effect| effect.id.as_str())
+        .collect()
 }
 
 fn material<'a>(plan: &'a Plan, name: &str) -> &'a MaterialPlan {
-    plan.materials.iter().find(|material| material.name == name).expect("a material of that name")
+    plan.materials
+        .iter()
+        .find(|material| material.name == name)
+        .expect("a material of that name")
 }
 
 #[test]
@@ -19,18 +27,43 @@ fn every_example_loads_and_plans() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
     let mut names: Vec<_> = std::fs::read_dir(folder)
         .expect("the examples folder")
-        .map(|entry| entry.expect("a readable entry").file_name().into_string().expect("a plain name"))
+        .map(|entry| {
+            entry
+                .expect("a readable entry")
+                .file_name()
+                .into_string()
+                .expect("a plain name")
+        })
         .filter(|name| name.ends_with(".toml"))
         .collect();
     names.sort();
-    assert_eq!(names, ["brick_wall.toml", "bumped_cube.toml", "elevation.toml", "gallery.toml", "nothing.toml"]);
+    assert_eq!(
+        names,
+        [
+            "brick_wall.toml",
+            "bumped_cube.toml",
+            "elevation.toml",
+            "gallery.toml",
+            "nothing.toml"
+        ]
+    );
     for name in names {
         let scene = example(&name);
         let first = plan(&scene);
-        assert_eq!(first.to_string(), plan(&example(&name)).to_string(), "{name} is planned alike twice");
+        assert_eq!(
+            first.to_string(),
+            plan(&example(&name)).to_string(),
+            "{name} is planned alike twice"
+        );
         for material in &first.materials {
             assert_eq!(material.effects.len(), EffectId::ALL.len());
-            assert!(material.effects.iter().zip(EffectId::ALL).all(|(effect, id)| effect.id == id));
+            assert!(
+                material
+                    .effects
+                    .iter()
+                    .zip(EffectId::ALL)
+                    .all(|(effect, id)| effect.id == id)
+            );
             assert!(material.notes.is_empty(), "{name}: {:?}", material.notes);
         }
     }
@@ -40,10 +73,23 @@ fn every_example_loads_and_plans() {
 fn brick_wall_needs_relief_normals_and_a_highlight() {
     let plan = plan(&example("brick_wall.toml"));
     let bricks = only(&plan);
-    assert_eq!(kept(bricks), ["lighting", "specular", "normal_map", "albedo_map", "relief"]);
+    assert_eq!(
+        kept(bricks),
+        ["lighting", "specular", "normal_map", "albedo_map", "relief"]
+    );
     assert!(bricks.choice.is_some());
-    assert!(bricks.objects[0].footprint.is_some_and(|seen| seen.area_px > 50_000.0));
-    assert!(bricks.predicted.error_px_p99.is_some_and(|px| px > 0.0 && px < 20.0), "{plan}");
+    assert!(
+        bricks.objects[0]
+            .footprint
+            .is_some_and(|seen| seen.area_px > 50_000.0)
+    );
+    assert!(
+        bricks
+            .predicted
+            .error_px_p99
+            .is_some_and(|px| px > 0.0 && px < 20.0),
+        "{plan}"
+    );
 }
 
 #[test]
@@ -72,19 +118,34 @@ fn nothing_needs_nothing() {
     assert_eq!(kept(plaster), Vec::<&str>::new());
     assert_eq!(plaster.features, bossage_shaders::FeatureSet::default());
     assert_eq!(plaster.predicted.error_px_p99, Some(0.0));
+    // The maps are dropped for what they hold, not only for want of light.
+    assert!(plaster.effect(EffectId::NormalMap).reason.contains("(0, 0, 1)"));
+    assert!(
+        plaster
+            .effect(EffectId::Relief)
+            .reason
+            .contains("height does not vary")
+    );
 }
 
 #[test]
 fn gallery_shares_and_parts() {
     let plan = plan(&example("gallery.toml"));
-    assert_eq!(material(&plan, "brass").permutation, material(&plan, "steel").permutation);
+    assert_eq!(
+        material(&plan, "brass").permutation,
+        material(&plan, "steel").permutation
+    );
     assert_eq!(plan.permutations.len(), plan.materials.len() - 1);
     let has = |name, id: EffectId| material(&plan, name).effect(id).state == State::Kept;
     assert!(has("grating", EffectId::AlphaDiscard) && !has("bricks", EffectId::AlphaDiscard));
     assert!(has("bricks", EffectId::Relief) && !has("brass", EffectId::Relief));
     assert!(has("brass", EffectId::CofactorMatrix) && !has("clay", EffectId::CofactorMatrix));
     assert!(has("steel", EffectId::Handedness) && !has("bricks", EffectId::Handedness));
-    assert!(plan.materials.iter().all(|material| material.features.lights == bossage_shaders::Lights::Many));
+    assert!(
+        plan.materials
+            .iter()
+            .all(|material| material.features.lights == bossage_shaders::Lights::Many)
+    );
 }
 
 #[test]
@@ -100,8 +161,16 @@ fn json_has_the_agreed_keys() {
         assert!(material["predicted"][key].is_f64(), "{key}");
     }
     // Static costs come from the manifest; until then the keys are there and empty.
-    assert!(material["predicted"].get("ops").is_some_and(serde_json::Value::is_null));
-    assert!(material["predicted"].get("fetches").is_some_and(serde_json::Value::is_null));
+    assert!(
+        material["predicted"]
+            .get("ops")
+            .is_some_and(serde_json::Value::is_null)
+    );
+    assert!(
+        material["predicted"]
+            .get("fetches")
+            .is_some_and(serde_json::Value::is_null)
+    );
     for effect in material["effects"].as_array().expect("an array") {
         assert!(effect["id"].is_string() && effect["reason"].is_string() && effect["evidence"].is_object());
         assert!(effect["state"] == "kept" || effect["state"] == "dropped");
@@ -121,13 +190,27 @@ fn costs_are_filled_in_by_permutation() {
 #[test]
 fn the_readme_names_every_key_and_its_default() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let readme = std::fs::read_to_string(folder.join("../../examples/README.md")).expect("examples/README.md");
+    let readme =
+        std::fs::read_to_string(folder.join("../../examples/README.md")).expect("examples/README.md");
     let schema = std::fs::read_to_string(folder.join("src/schema.rs")).expect("src/schema.rs");
     let rows = |text: &str, lead: &str| -> Vec<String> {
-        let table = text.lines().filter_map(|line| line.strip_prefix(lead)).filter(|line| line.starts_with("| `"));
-        table.map(|line| line.replace("\\[", "[").replace("\\]", "]")).collect()
+        let table = text
+            .lines()
+            .filter_map(|line| line.strip_prefix(lead))
+            .filter(|line| line.starts_with("| `"));
+        table
+            .map(|line| line.replace("\\[", "[").replace("\\]", "]"))
+            .collect()
     };
     let stated = rows(&schema, "//! ");
     assert!(stated.len() > 30);
-    assert_eq!(rows(&readme, ""), stated, "the table of examples/README.md is that of the schema module");
+    let format = readme
+        .split("## The format")
+        .nth(1)
+        .expect("the section on the format");
+    assert_eq!(
+        rows(format, ""),
+        stated,
+        "the table of examples/README.md is that of the schema module"
+    );
 }

@@ -26,7 +26,12 @@ impl Folder {
     /// An 8x8 colour map, each texel by column and row.
     pub(crate) fn color(&self, name: &str, texel: impl Fn(u32, u32) -> [u8; 4]) -> &Self {
         let texels = (0..64).map(|i| texel(i % 8, i / 8)).collect();
-        let png = encode::color_png(&ColorMap { width: 8, height: 8, texels }).expect("8x8 texels");
+        let png = encode::color_png(&ColorMap {
+            width: 8,
+            height: 8,
+            texels,
+        })
+        .expect("8x8 texels");
         self.write(name, &png)
     }
 
@@ -40,7 +45,12 @@ impl Folder {
     pub(crate) fn normal(&self, name: &str, texel: impl Fn(u32, u32) -> [u8; 3]) -> &Self {
         let rgba = |[r, g, b]: [u8; 3]| [r, g, b, 255];
         let texels = (0..64).map(|i| rgba(texel(i % 8, i / 8))).collect();
-        let png = encode::normal_png(&NormalMap { width: 8, height: 8, codec: NormalCodec::Unorm, texels });
+        let png = encode::normal_png(&NormalMap {
+            width: 8,
+            height: 8,
+            codec: NormalCodec::Unorm,
+            texels,
+        });
         self.write(name, &png.expect("8x8 texels"))
     }
 
@@ -95,6 +105,8 @@ pub(crate) fn only(plan: &Plan) -> &MaterialPlan {
 
 /// An example scene of the repository.
 pub(crate) fn example(name: &str) -> Scene {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples").join(name);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../examples")
+        .join(name);
     bossage_scene::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
