@@ -52,6 +52,9 @@ pub enum Error {
     /// A shader could not be run.
     #[error(transparent)]
     Run(#[from] bossage_runner::Error),
+    /// Conformance could not start, or could not be reported.
+    #[error(transparent)]
+    Conform(#[from] bossage_conformance::Error),
     /// A value cannot be what it is; the message says which and what to do.
     #[error("{0}")]
     Call(String),
@@ -78,12 +81,14 @@ impl Error {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Run(error) if error.is_missing_environment() => 3,
+            Self::Conform(error) if error.is_missing_environment() => 3,
             Self::Read { .. }
             | Self::Scene(_)
             | Self::Library(_)
             | Self::Shaders(_)
             | Self::Asset(_)
             | Self::Run(_)
+            | Self::Conform(_)
             | Self::Write { .. }
             | Self::Collision { .. }
             | Self::Call(_)

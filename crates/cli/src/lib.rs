@@ -96,6 +96,7 @@ fn dispatch(cli: Cli) -> Result<Verdict> {
         Command::Bake(args) => run::bake::run(&args, &cli.global, console),
         Command::Render(args) => run::render::run(&args, &cli.global, console),
         Command::Doctor(args) => run::doctor::run(&args),
-        _ => todo!(),
+        Command::Conform(args) => run::conform::run(&args, &cli.global, console),
+        Command::Demo(args) => run::demo::run(&args, &cli.global, console),
     }
 }

@@ -103,6 +103,14 @@ pub fn write_whole(path: &Path, bytes: Vec<u8>) -> Result<()> {
     outputs.commit().map(drop)
 }
 
+/// Finds out early whether a file could be written, so that long work is not done for nothing. Leaves no trace.
+///
+/// # Errors
+/// [`Error::Write`] naming the file.
+pub fn check_writable(path: &Path) -> Result<()> {
+    Staging::default().stage(path, b"").map(drop).map_err(|e| cannot_write(path, e))
+}
+
 fn cannot_write(path: &Path, source: io::Error) -> Error {
     Error::Write { path: path.to_owned(), source }
 }
@@ -238,6 +246,15 @@ mod tests {
         assert_eq!(error.exit_code(), 2);
         assert!(error.to_string().contains("bad.txt"), "{error}");
         assert_eq!(entries(folder.path()), ["file"], "folders made on the way are removed too");
+    }
+
+    #[test]
+    fn asking_whether_a_file_can_be_written_leaves_no_trace() {
+        let folder = tempfile::tempdir().unwrap();
+        check_writable(&folder.path().join("a/b/c.json")).unwrap();
+        assert!(entries(folder.path()).is_empty());
+        fs::write(folder.path().join("file"), "").unwrap();
+        assert!(check_writable(&folder.path().join("file/c.json")).is_err());
     }
 
     #[test]

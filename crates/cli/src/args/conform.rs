@@ -12,11 +12,14 @@ Examples:
 pub(crate) struct Conform {
     /// Only cases whose id contains this
     pub(crate) filter: Option<String>,
+    /// Also draw these scenes and compare every pixel
+    #[arg(long, value_name = "SCENE")]
+    pub(crate) scene: Vec<PathBuf>,
     /// Only these routes from emitted code to numbers [default: all]
     #[arg(long, value_name = "ROUTES", value_delimiter = ',')]
     pub(crate) route: Vec<String>,
     /// Only adapters whose name contains one of these; each must be there [default: all found]
-    #[arg(long, value_name = "ADAPTERS", value_delimiter = ',')]
+    #[arg(long, value_name = "ADAPTERS")]
     pub(crate) adapter: Vec<String>,
     /// Only the I-th of N parts of the cases, counted from 1
     #[arg(long, value_name = "I/N")]

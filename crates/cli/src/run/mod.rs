@@ -4,6 +4,8 @@ pub(crate) mod bake;
 mod bake_gpu;
 pub(crate) mod check;
 pub(crate) mod completions;
+pub(crate) mod conform;
+pub(crate) mod demo;
 pub(crate) mod doctor;
 pub(crate) mod emit;
 pub(crate) mod plan;

@@ -1,0 +1,225 @@
+//! `bossage demo`: the road of one scene, end to end, and a page that shows every stop of it.
+//!
+//! What needs an adapter (the pictures and the conformance) is left out where there is none, and the page says so: the
+//! demo still succeeds. A failed check or case makes the exit code 1.
+
+mod bundle;
+mod page;
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use bossage_conformance::{Report, Selection};
+use bossage_runner::{AdapterInfo, AdapterSelector, Device};
+use bossage_shaders::Library;
+use bossage_translate::external::{self, Validator};
+use bossage_translate::{EmitOptions, Target, lint};
+
+use crate::Verdict;
+use crate::args::{Global, demo::Demo};
+use crate::console::{self, Console};
+use crate::error::{Error, Result};
+use crate::inputs::{self, Inputs, Planned};
+use crate::output::Outputs;
+use crate::picture::{Linear, difference};
+use crate::run::check::{self, Checker, InputReport};
+use crate::run::conform::Watch;
+use crate::run::emit::{Done, Job};
+use crate::run::{plan, render};
+use crate::stamp::Stamp;
+use crate::technique;
+
+/// Everything the page shows.
+struct Story {
+    inputs: Inputs,
+    done: Done,
+    validators: Vec<Validator>,
+    check: InputReport,
+    pictures: Vec<Shot>,
+    conformance: Option<Report>,
+    /// What was left out, and how to get it.
+    left_out: Vec<String>,
+    times: Vec<(&'static str, Duration)>,
+}
+
+/// One picture with what it shows.
+struct Shot {
+    file: &'static str,
+    title: String,
+    caption: String,
+    png: Vec<u8>,
+}
+
+pub(crate) fn run(args: &Demo, global: &Global, console: Console) -> Result<Verdict> {
+    let folder = &args.output;
+    let mut clock = Clock::new(console);
+    let (library, _) = inputs::library(global)?;
+    let path = bundle::unpack(&folder.join("scene"))?;
+    let mut inputs = inputs::gather(std::slice::from_ref(&path), None, global)?;
+    for planned in &mut inputs.scenes {
+        plan::add_costs(&mut planned.plan, &library)?;
+    }
+    clock.lap("plan", &format!("{} permutation(s)", inputs.scenes.iter().map(|s| s.plan.permutations.len()).sum::<usize>()));
+
+    let options = EmitOptions::default();
+    let job = Job { targets: &Target::ALL, options: &options, folder: &folder.join("shaders") };
+    let done = job.write(&inputs, Some(("demo".to_owned(), Stamp::load(job.folder))))?;
+    clock.lap("emit", &format!("{} shaders in {} languages", inputs.modules.len(), Target::ALL.len()));
+
+    let validators = external::detect();
+    console.note(check::banner(&validators).trim_end());
+    let checker = Checker { options: &options, validators: &validators, cache: check::cache_folder(None) };
+    let mut check = checker.check_translations(&path, &done.translations);
+    check.lints = inputs.parse()?.iter().flat_map(lint).collect();
+    clock.lap("check", if check.ok { "nothing failed" } else { "FAILED" });
+
+    let mut story = Story {
+        inputs,
+        done,
+        validators,
+        check,
+        pictures: Vec::new(),
+        conformance: None,
+        left_out: Vec::new(),
+        times: Vec::new(),
+    };
+    story.execute(&library, &mut clock)?;
+    story.times = clock.laps;
+    story.finish(folder)
+}
+
+impl Story {
+    /// Draws and compares, where there is an adapter.
+    fn execute(&mut self, library: &Library, clock: &mut Clock) -> Result<()> {
+        let device = match Device::open(&AdapterSelector::Any) {
+            Err(error) if error.is_missing_environment() => {
+                let missing = format!("Pictures and conformance are left out: {}", crate::error::chain(&error));
+                clock.console.note(console::faint(&missing));
+                self.left_out.push(missing);
+                return Ok(());
+            }
+            device => device?,
+        };
+        let planned = self.inputs.scenes.first().ok_or_else(|| Error::Call("the demo has no scene".to_owned()))?;
+        self.pictures = pictures(&device, planned, library)?;
+        clock.lap("render", &describe(device.info()));
+        let report = conform(planned, library, clock.console)?;
+        let totals = report.totals();
+        clock.lap("conform", &format!("{} results, {} failed", totals.cases, totals.fail));
+        self.conformance = Some(report);
+        Ok(())
+    }
+
+    fn is_fine(&self) -> bool {
+        let conforms = self.conformance.as_ref().is_none_or(Report::is_ok);
+        self.check.ok && self.done.failures().next().is_none() && conforms
+    }
+
+    /// Writes pictures and page, and names them.
+    fn finish(self, folder: &Path) -> Result<Verdict> {
+        let page = folder.join("report.html");
+        let mut outputs = Outputs::default();
+        outputs.add(page.clone(), "the report", page::write(&self)?.into_bytes())?;
+        for shot in &self.pictures {
+            outputs.add(folder.join(shot.file), "a picture", shot.png.clone())?;
+        }
+        outputs.commit()?;
+        let picture = self.pictures.first().map(|shot| folder.join(shot.file));
+        let picture = picture.map_or_else(|| "none (no adapter)".to_owned(), |path| path.display().to_string());
+        console::print(&format!("picture: {picture}\nreport:  {}\n", page.display()))?;
+        Ok(if self.is_fine() { Verdict::Fine } else { Verdict::Failed })
+    }
+}
+
+fn describe(info: &AdapterInfo) -> String {
+    format!("on {}", info.name)
+}
+
+/// The wall as planned; and what its relief adds to the same wall without it.
+fn pictures(device: &Device, planned: &Planned, library: &Library) -> Result<Vec<Shot>> {
+    let with = render::picture(device, &planned.scene, library)?;
+    let without = render::picture(device, &technique::pinned(&planned.scene, "none")?, library)?;
+    let difference = difference(&without, &with);
+    let chosen = planned.plan.materials.first().map_or("none", |material| material.technique);
+    Ok(vec![
+        Shot {
+            file: "brick_wall.png",
+            title: "The scene as planned".to_owned(),
+            caption: format!("A flat brick wall, {} x {} pixels, drawn with technique {chosen}.", with.width, with.height),
+            png: with.png()?,
+        },
+        Shot {
+            file: "brick_wall_compare.png",
+            title: "What the relief does".to_owned(),
+            caption: format!(
+                "Left: without relief. Middle: as planned. Right: the absolute difference, times {:.2} (in linear light at most \
+                 {:.4}, mean {:.4}).",
+                difference.amplification, difference.max, difference.mean
+            ),
+            png: Linear::beside(&[without, with, difference.picture]).png()?,
+        },
+    ])
+}
+
+/// The scene itself, and every technique whose code is in its shaders or whose data it reads.
+fn conform(planned: &Planned, library: &Library, console: Console) -> Result<Report> {
+    let scenes = vec![planned.scene.path.clone()];
+    let mut filters: Vec<String> = techniques(planned, library)?.iter().map(|id| format!("{id}/")).collect();
+    filters.push("scene/".to_owned());
+    let mut reports = Vec::new();
+    for filter in filters {
+        let selection = Selection { filter: Some(filter), scenes: scenes.clone(), ..Selection::default() };
+        reports.push(bossage_conformance::run(&selection, library, &mut Watch::new(console))?);
+    }
+    let environment = reports.first().map(|report| report.environment.clone()).unwrap_or_default();
+    Ok(Report::new(environment, reports.into_iter().flat_map(|report| report.cases).collect()))
+}
+
+fn techniques(planned: &Planned, library: &Library) -> Result<BTreeSet<String>> {
+    let mut ids = BTreeSet::new();
+    for assembled in inputs::assemble(library, &planned.plan)? {
+        ids.extend(assembled.modules.iter().filter_map(|module| technique_of(module)));
+    }
+    for material in &planned.scene.materials {
+        let codec = material.normal.as_ref().map(|normal| normal.map.codec);
+        ids.extend(codec.map(|codec| format!("codec_{}", codec.name())));
+        let has_tangents = planned.plan.materials.iter().any(|plan| plan.name == material.name && plan.features.has_tangent());
+        ids.extend(has_tangents.then(|| tangents(material.tangents).to_owned()));
+    }
+    Ok(ids)
+}
+
+/// `techniques/NAME.wesl` → NAME.
+fn technique_of(module: &str) -> Option<String> {
+    let path = PathBuf::from(module);
+    let is_technique = path.parent().is_some_and(|folder| folder.ends_with("techniques"));
+    is_technique.then(|| path.file_stem().map(|stem| stem.to_string_lossy().into_owned())).flatten()
+}
+
+const fn tangents(tangents: bossage_scene::Tangents) -> &'static str {
+    match tangents {
+        bossage_scene::Tangents::MikkTSpace => "frame_mikktspace",
+        bossage_scene::Tangents::FromUv => "frame_from_uv",
+    }
+}
+
+/// Tells how long each stop took.
+struct Clock {
+    console: Console,
+    last: Instant,
+    laps: Vec<(&'static str, Duration)>,
+}
+
+impl Clock {
+    fn new(console: Console) -> Self {
+        Self { console, last: Instant::now(), laps: Vec::new() }
+    }
+
+    fn lap(&mut self, name: &'static str, what: &str) {
+        let time = self.last.elapsed();
+        self.console.note(format_args!("{name:8} {:6.2} s  {what}", time.as_secs_f64()));
+        self.laps.push((name, time));
+        self.last = Instant::now();
+    }
+}

@@ -1,0 +1,259 @@
+//! The other commands, run as a user runs them. Those that need an adapter say so when there is none.
+
+mod tool;
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::Value;
+use tool::{bossage, bossage_without_adapter, entries, repository, text};
+
+fn parsed(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error} in:\n{text}"))
+}
+
+/// Whether this machine has an adapter. Where a run must have one, `BOSSAGE_REQUIRE` names it, and going without fails.
+fn has_adapter() -> bool {
+    let report = parsed(&bossage(&["doctor", "--json"]).exits(0).stdout);
+    let found = !report["adapters"].as_array().unwrap().is_empty();
+    let required = std::env::var("BOSSAGE_REQUIRE").unwrap_or_default();
+    assert!(found || !required.contains("lavapipe"), "BOSSAGE_REQUIRE names an adapter, and none is here");
+    if !found {
+        eprintln!("SKIP: no adapter; {}", report["how_to_get_an_adapter"]);
+    }
+    found
+}
+
+#[test]
+fn plan_says_why() {
+    let scene = repository("examples/brick_wall.toml");
+    let table = bossage(&["plan", text(&scene)]).exits(0).stdout;
+    assert!(table.contains("material bricks: technique parallax_offset"), "{table}");
+    assert!(table.contains("kept     relief") && table.contains("dropped  light_loop"), "{table}");
+    let plan = parsed(&bossage(&["plan", text(&scene), "--json"]).exits(0).stdout);
+    assert_eq!(plan["schema"], 1);
+    let material = &plan["materials"][0];
+    for key in ["name", "technique", "permutation"] {
+        assert!(material[key].is_string(), "{key}");
+    }
+    for effect in material["effects"].as_array().unwrap() {
+        assert!(effect["id"].is_string() && effect["reason"].is_string() && effect["evidence"].is_object());
+        assert!(["kept", "dropped"].contains(&effect["state"].as_str().unwrap()));
+    }
+    for key in ["error_texels_p99", "error_px_p99", "ops", "fetches"] {
+        assert!(material["predicted"][key].is_number(), "{key}: {}", material["predicted"]);
+    }
+}
+
+#[test]
+fn doctor_names_every_tool_with_a_way_to_get_it() {
+    let report = parsed(&bossage(&["doctor", "--json"]).exits(0).stdout);
+    assert_eq!(report["schema"], 1);
+    let validators = report["validators"].as_array().unwrap();
+    assert!(validators.len() >= 2);
+    for validator in validators {
+        match validator["state"].as_str().unwrap() {
+            "enabled" => assert!(validator["version"].is_string()),
+            "disabled" => assert!(validator["reason"].is_string()),
+            other => panic!("{other}"),
+        }
+    }
+    let without = bossage_without_adapter(&["doctor"]).exits(0).stdout;
+    assert!(without.contains("DISABLED  no adapter") && without.contains("mesa-vulkan-drivers"), "{without}");
+}
+
+#[test]
+fn check_passes_good_shaders_and_fails_bad_ones() {
+    let folder = tempfile::tempdir().unwrap();
+    let cache = folder.path().join("cache");
+    let good = repository("examples/user_shader.wgsl");
+    let run = bossage(&["check", text(&good), "--json", "--cache", text(&cache)]).exits(0);
+    let report = parsed(&run.stdout);
+    assert_eq!(report["schema"], 1);
+    let input = &report["inputs"][0];
+    assert_eq!(input["ok"], true);
+    for target in ["spirv", "hlsl", "msl", "glsl", "wgsl"] {
+        assert_eq!(input["targets"][target]["emitted"], true, "{target}");
+    }
+    for check in input["targets"]["spirv"]["checks"].as_array().unwrap() {
+        assert!(check["tool"].is_string() && check["message"].is_string());
+        assert_ne!(check["state"], "fail");
+    }
+    assert!(input["lints"].is_array());
+
+    let bad = folder.path().join("bad.wgsl");
+    fs::write(&bad, "fn f() -> f32 { return 1u; }").unwrap();
+    let run = bossage(&["check", text(&good), text(&bad), "--json", "--cache", text(&cache)]).exits(2);
+    let report = parsed(&run.stdout);
+    assert_eq!(report["inputs"][0]["ok"], true, "the good one is checked all the same");
+    assert_eq!(report["inputs"][1]["ok"], false);
+    assert!(report["inputs"][1]["error"].as_str().unwrap().contains("bad.wgsl:1:"));
+
+    // A compute shader cannot be expressed in OpenGL 3.3: the input is right, the check fails.
+    let compute = folder.path().join("compute.wgsl");
+    fs::write(&compute, "@compute @workgroup_size(1) fn main() {}").unwrap();
+    let run = bossage(&["check", text(&compute), "--glsl", "330", "--cache", text(&cache)]).exits(1);
+    assert!(run.stdout.contains("glsl   FAIL"), "{}", run.stdout);
+}
+
+#[test]
+fn completions_know_every_command() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let script = bossage(&["completions", shell]).exits(0).stdout;
+        for word in ["demo", "plan", "emit", "check", "conform", "render", "bake", "doctor", "shader-dir"] {
+            assert!(script.contains(word), "{shell} does not complete {word}");
+        }
+    }
+}
+
+#[test]
+fn without_an_adapter_render_and_conform_exit_with_3_and_say_how_to_get_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = repository("examples/brick_wall.toml");
+    let picture = folder.path().join("wall.png");
+    let how = ["no Vulkan adapter", "mesa-vulkan-drivers"];
+    bossage_without_adapter(&["render", text(&scene), "-o", text(&picture)]).exits(3).says(&how);
+    bossage_without_adapter(&["conform", "dot3"]).exits(3).says(&how);
+    let height = repository("examples/textures/bricks_height.png");
+    bossage_without_adapter(&["bake", text(&height), "-o", text(folder.path()), "--gpu"]).exits(3).says(&how);
+    assert!(entries(folder.path()).is_empty());
+}
+
+#[test]
+fn an_adapter_that_is_not_there_is_named_with_those_that_are() {
+    if has_adapter() {
+        let run = bossage(&["conform", "dot3", "--adapter", "voodoo"]).exits(3);
+        run.says(&["voodoo", "there are:"]);
+    }
+}
+
+#[test]
+fn the_demo_goes_on_without_an_adapter() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("demo");
+    let run = bossage_without_adapter(&["demo", "-o", text(&out)]).exits(0);
+    assert!(run.stdout.contains("picture: none"), "{}", run.stdout);
+    assert!(run.stdout.ends_with(&format!("report:  {}\n", out.join("report.html").display())), "{}", run.stdout);
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("left out: no Vulkan adapter"));
+    assert!(out.join("shaders/manifest.json").exists());
+    assert!(out.join("scene/brick_wall.toml").exists());
+}
+
+#[test]
+fn the_demo_names_a_picture_and_a_page_that_stands_alone() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("demo");
+    let run = bossage(&["demo", "-o", text(&out)]).exits(0);
+    let picture = out.join("brick_wall.png");
+    assert_eq!(run.stdout, format!("picture: {}\nreport:  {}\n", picture.display(), out.join("report.html").display()));
+    assert_is_a_picture(&picture, 640, 480);
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    for part in ["SPIR-V", "HLSL", "MSL", "GLSL", "WGSL", "parallax_offset", "data:image/png;base64,", "spirv-val"] {
+        assert!(page.contains(part), "{part} is missing");
+    }
+    for outside in ["src=\"http", "<script", "@import", "url("] {
+        assert!(!page.contains(outside), "{outside} reaches out of the page");
+    }
+    for link in page.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
+        let target = link.strip_prefix('#').map_or_else(|| out.join(link).exists(), |id| page.contains(&format!("id=\"{id}\"")));
+        assert!(target, "the link to {link} leads nowhere");
+    }
+}
+
+/// Right size, and something is to be seen: it holds many colours.
+fn assert_is_a_picture(path: &Path, width: u32, height: u32) {
+    let picture = image::open(path).unwrap().to_rgb8();
+    assert_eq!(picture.dimensions(), (width, height));
+    let colours: std::collections::BTreeSet<[u8; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
+    assert!(colours.len() > 1000, "only {} colours", colours.len());
+    assert!(!colours.contains(&[255, 0, 255]), "there are pixels that are not numbers");
+}
+
+#[test]
+fn render_draws_in_the_size_asked_for_and_compares() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let scene = repository("examples/brick_wall.toml");
+    let (plain, compared) = (folder.path().join("plain.png"), folder.path().join("compared.png"));
+    bossage(&["render", text(&scene), "-o", text(&plain), "--size", "160x120"]).exits(0);
+    assert_is_a_picture(&plain, 160, 120);
+    let call =
+        ["render", text(&scene), "-o", text(&compared), "--size", "160x120", "--compare", "none,parallax_offset_limited"];
+    bossage(&call).exits(0).says(&["max 0.", "mean 0."]);
+    // Three pictures and two gaps of four pixels.
+    assert_is_a_picture(&compared, 3 * 160 + 2 * 4, 120);
+    let same = ["render", text(&scene), "-o", text(&compared), "--size", "160x120", "--compare", "none,none"];
+    bossage(&same).exits(0).says(&["max 0.000000, mean 0.000000"]);
+}
+
+#[test]
+fn bakes_are_the_same_on_both_sides() {
+    let folder = tempfile::tempdir().unwrap();
+    let height = repository("examples/textures/bricks_height.png");
+    let variants: &[&[&str]] = &[
+        &["--normal", "central"],
+        &["--normal", "central", "--codec", "biased", "--edge", "mirror", "--scale", "0.1"],
+        &["--normal", "central", "--edge", "clamp"],
+        &["--normal", "forward"],
+    ];
+    let adapter = has_adapter();
+    for (index, variant) in variants.iter().enumerate() {
+        let bake = |name: &str, more: &[&str]| {
+            let out = folder.path().join(format!("{index}{name}"));
+            let call = [&["bake", text(&height), "-o", text(&out)], *variant, more].concat();
+            bossage(&call).exits(0);
+            fs::read(out.join("bricks_height_normal.png")).unwrap()
+        };
+        let cpu = bake("cpu", &[]);
+        assert!(image::load_from_memory(&cpu).unwrap().to_rgba8().pixels().any(|pixel| pixel.0[0] != pixel.0[1]));
+        if adapter {
+            assert!(bake("gpu", &["--gpu"]) == cpu, "{variant:?}: the adapter bakes other bytes");
+        }
+    }
+}
+
+#[test]
+fn conform_lists_runs_and_reports() {
+    let list = bossage(&["conform", "--list", "dot3"]).exits(0).stdout;
+    assert!(list.lines().count() >= 3 && list.lines().all(|line| line.starts_with("dot3/")), "{list}");
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let (json, junit, html) =
+        (folder.path().join("r.json"), folder.path().join("r.xml"), folder.path().join("deep/r.html"));
+    let call =
+        ["conform", "dot3", "--json", text(&json), "--junit", text(&junit), "--html", text(&html), "--adapter", "lavapipe"];
+    bossage(&call).exits(0);
+    let report = parsed(&fs::read_to_string(&json).unwrap());
+    assert_eq!(report["totals"]["fail"], 0);
+    let case = &report["cases"][0];
+    for key in ["id", "route", "adapter", "basis", "outputs", "verdict", "worst", "rerun"] {
+        assert!(case.get(key).is_some(), "{key} is missing in {case}");
+    }
+    assert!(fs::read_to_string(&junit).unwrap().contains("<testsuite"));
+    assert!(fs::read_to_string(&html).unwrap().starts_with("<!DOCTYPE html>"));
+
+    // The command that a report gives for running a case again is one that works.
+    let rerun = case["rerun"].as_str().unwrap().strip_prefix("bossage ").unwrap();
+    let script = format!("\"$0\" {rerun} --json -");
+    let output = std::process::Command::new("sh").args(["-c", &script, env!("CARGO_BIN_EXE_bossage")]).output().unwrap();
+    let again = parsed(&tool::Run::from(output).exits(0).stdout);
+    let ids: Vec<_> = again["cases"].as_array().unwrap().iter().map(|case| &case["id"]).collect();
+    assert_eq!(ids, [&case["id"]]);
+}
+
+#[test]
+fn a_report_that_cannot_be_written_is_found_before_the_work_is_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    let report = file.join("r.json");
+    bossage(&["conform", "dot3", "--json", text(&report)]).exits(2).says(&["r.json"]);
+}
