@@ -88,6 +88,18 @@ pub enum Error {
         /// The other's.
         second: String,
     },
+    /// The two stages of a draw take different routes.
+    #[error(
+        "`{job}`: the vertex stage takes the route `{vertex}`, the fragment stage `{fragment}`; both must take one"
+    )]
+    MixedRoutes {
+        /// The job.
+        job: String,
+        /// The vertex stage's route.
+        vertex: &'static str,
+        /// The fragment stage's route.
+        fragment: &'static str,
+    },
     /// The shader binds something that the job gives no resource for.
     #[error("`{job}`: nothing is given for binding `{name}` (@group({group}) @binding({binding}), {kind})")]
     MissingResource {

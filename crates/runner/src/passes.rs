@@ -136,6 +136,7 @@ impl RenderJob<'_> {
 
 impl Draw<'_> {
     fn prepare(&self, device: &Device, job: &RenderJob<'_>) -> Result<PreparedDraw, Error> {
+        expect_one_route(job.name, &self.vertex, &self.fragment)?;
         expect_stage(&self.vertex, Stage::Vertex)?;
         expect_stage(&self.fragment, Stage::Fragment)?;
         if self.blend != Blend::Replace {
@@ -182,6 +183,19 @@ impl Draw<'_> {
         }
         Ok(written)
     }
+}
+
+/// wgpu checks each stage against the one before it, which it can't where only one of them is passed through.
+fn expect_one_route(job: &str, vertex: &Shader<'_>, fragment: &Shader<'_>) -> Result<(), Error> {
+    let (vertex, fragment) = (vertex.code.route(), fragment.code.route());
+    if vertex == fragment {
+        return Ok(());
+    }
+    Err(Error::MixedRoutes {
+        job: job.to_owned(),
+        vertex,
+        fragment,
+    })
 }
 
 fn expect_stage(shader: &Shader<'_>, stage: Stage) -> Result<(), Error> {
@@ -265,11 +279,14 @@ impl PreparedRender {
             let depth = job
                 .read_depth
                 .then(|| copy(&self.depth, wgpu::TextureAspect::DepthOnly, 4));
-            device.queue.submit([encoder.finish()]);
-            let picture = |copy: &PictureCopy| Ok(picture(job, copy.read(device, job.name)?));
+            let submission = device.queue.submit([encoder.finish()]);
+            let picture =
+                |copy: &PictureCopy| Ok(picture(job, copy.read(device, job.name, submission.clone())?));
             Ok(RenderOutput {
                 targets: copies.iter().map(picture).collect::<Result<_, Error>>()?,
-                depth: depth.map(|copy| copy.read(device, job.name)).transpose()?,
+                depth: depth
+                    .map(|copy| copy.read(device, job.name, submission.clone()))
+                    .transpose()?,
             })
         })
     }

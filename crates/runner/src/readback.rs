@@ -1,12 +1,16 @@
 //! Brings what the device holds back into memory.
 
-use std::sync::Arc;
-use std::sync::Mutex;
+use std::sync::mpsc;
+use std::time::Duration;
 
-use crate::device::{Device, lock};
+use crate::device::Device;
 use crate::error::Error;
 
-/// Bytes that a copy into this module's buffers must be a multiple of, a row.
+/// How long the word that a buffer is mapped may come after the work is done: it is said by whichever thread polls the
+/// device, which may be another one, in the middle of it. Only a thread that is stuck takes this long.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// What the bytes of a row must be a multiple of, in copies from textures to buffers.
 const ROW_ALIGNMENT: u32 = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT;
 
 /// A buffer that the device copies into and the CPU reads.
@@ -30,23 +34,25 @@ impl Staging {
         &self.buffer
     }
 
-    /// Waits for the device and reads the bytes. Everything that copies into the buffer must have been submitted.
-    pub(crate) fn read(&self, device: &Device, job: &str) -> Result<Vec<u8>, Error> {
+    /// Waits for the submission that copies into the buffer, and reads the bytes.
+    pub(crate) fn read(
+        &self,
+        device: &Device,
+        job: &str,
+        submission: wgpu::SubmissionIndex,
+    ) -> Result<Vec<u8>, Error> {
         let failed = |message: String| Error::Internal {
             job: job.to_owned(),
             message,
         };
-        let mapped = Arc::new(Mutex::new(None));
-        let answer = Arc::clone(&mapped);
-        self.buffer.map_async(wgpu::MapMode::Read, .., move |result| {
-            *lock(&answer) = Some(result)
-        });
-        device.wait(job)?;
-        match lock(&mapped).take() {
-            Some(Ok(())) => {}
-            Some(Err(error)) => return Err(failed(format!("reading back: {error}"))),
-            None => return Err(failed("reading back: the device never answered".to_owned())),
-        }
+        let (sender, receiver) = mpsc::channel();
+        // A failure to send would mean that nobody listens any more: nothing to tell then.
+        self.buffer
+            .map_async(wgpu::MapMode::Read, .., move |result| drop(sender.send(result)));
+        device.wait(job, submission)?;
+        let answer = receiver.recv_timeout(PATIENCE);
+        let answer = answer.map_err(|error| failed(format!("reading back: no answer: {error}")))?;
+        answer.map_err(|error| failed(format!("reading back: {error}")))?;
         let bytes = self
             .buffer
             .get_mapped_range(..)
@@ -67,8 +73,8 @@ pub(crate) fn buffers(
 ) -> Result<Vec<Vec<u8>>, Error> {
     let total: u64 = sources.iter().map(|buffer| buffer.size()).sum();
     if total == 0 {
-        device.queue.submit([encoder.finish()]);
-        return device.wait(job).map(|()| Vec::new());
+        let submission = device.queue.submit([encoder.finish()]);
+        return device.wait(job, submission).map(|()| Vec::new());
     }
     device.within(
         job,
@@ -82,8 +88,8 @@ pub(crate) fn buffers(
         encoder.copy_buffer_to_buffer(source, 0, staging.buffer(), offset, source.size());
         offset += source.size();
     }
-    device.queue.submit([encoder.finish()]);
-    let bytes = staging.read(device, job)?;
+    let submission = device.queue.submit([encoder.finish()]);
+    let bytes = staging.read(device, job, submission)?;
     let mut rest = bytes.as_slice();
     let mut taken = Vec::with_capacity(sources.len());
     for source in sources {
@@ -136,9 +142,14 @@ impl PictureCopy {
         }
     }
 
-    /// The floats, row by row, once everything was submitted.
-    pub(crate) fn read(&self, device: &Device, job: &str) -> Result<Vec<f32>, Error> {
-        let bytes = self.staging.read(device, job)?;
+    /// The floats, row by row, once the copy was submitted.
+    pub(crate) fn read(
+        &self,
+        device: &Device,
+        job: &str,
+        submission: wgpu::SubmissionIndex,
+    ) -> Result<Vec<f32>, Error> {
+        let bytes = self.staging.read(device, job, submission)?;
         let rows = bytes
             .chunks(self.padded as usize)
             .map(|row| &row[..self.row_bytes as usize]);

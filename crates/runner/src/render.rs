@@ -61,7 +61,7 @@ pub enum Depth {
 /// One mesh with one pair of shaders.
 #[derive(Clone, Debug)]
 pub struct Draw<'a> {
-    /// The vertex stage.
+    /// The vertex stage. Both stages take the same route.
     pub vertex: Shader<'a>,
     /// The fragment stage.
     pub fragment: Shader<'a>,

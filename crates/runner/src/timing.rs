@@ -276,8 +276,8 @@ impl<'a> Stopwatch<'a> {
     fn by_wall(&self, job: &Prepared<'_>, encoder: wgpu::CommandEncoder) -> Result<f64, Error> {
         let commands = encoder.finish();
         let start = Instant::now();
-        self.device.queue.submit([commands]);
-        self.device.wait(job.name)?;
+        let submission = self.device.queue.submit([commands]);
+        self.device.wait(job.name, submission)?;
         Ok(start.elapsed().as_secs_f64() * 1e3)
     }
 }

@@ -17,17 +17,23 @@ pub(crate) fn pack(job: &str, block: &Block, values: &BTreeMap<String, Vec<f32>>
         values,
         bytes: vec![0; block.size as usize],
     };
-    for member in &block.members {
-        packer.member(&join(&block.name, &member.name), member, 0)?;
-    }
+    packer.member(&block.name, &as_member(block), 0)?;
     Ok(packer.bytes)
 }
 
-fn join(parent: &str, name: &str) -> String {
-    if name.is_empty() {
-        parent.to_owned()
-    } else {
-        format!("{parent}.{name}")
+/// The block as a member of nothing: a struct of its members, or its one member where it is no struct.
+fn as_member(block: &Block) -> Member {
+    match block.members.as_slice() {
+        [only] if only.name.is_empty() => only.clone(),
+        members => Member {
+            name: String::new(),
+            ty: block.name.clone(),
+            offset: 0,
+            size: block.size,
+            value: None,
+            array: None,
+            members: members.to_vec(),
+        },
     }
 }
 
@@ -129,7 +135,7 @@ fn children(path: &str, member: &Member, base: u32) -> Vec<(String, Member, u32)
         None => member
             .members
             .iter()
-            .map(|child| (join(path, &child.name), child.clone(), start))
+            .map(|child| (format!("{path}.{}", child.name), child.clone(), start))
             .collect(),
     }
 }
@@ -268,6 +274,21 @@ mod tests {
         assert_eq!(
             pack("a", &block(), &whole).unwrap(),
             pack("b", &block(), &single).unwrap()
+        );
+    }
+
+    #[test]
+    fn a_whole_struct_fills_as_its_members_do() {
+        let numbers: Vec<f32> = (0..14).map(|index| index as f32).collect();
+        let whole = values(&[("u", &numbers)]);
+        let apart = values(&[
+            ("u.count", &numbers[..2]),
+            ("u.m", &numbers[2..8]),
+            ("u.items", &numbers[8..]),
+        ]);
+        assert_eq!(
+            pack("a", &block(), &whole).unwrap(),
+            pack("b", &block(), &apart).unwrap()
         );
     }
 

@@ -140,11 +140,8 @@ fn an_unknown_buffer_is_a_mistake() {
         return;
     };
     let spoil = |job: &mut ComputeJob<'_>| {
-        drop(
-            job.resources
-                .buffers
-                .insert("ouputs".into(), BufferData::Output(4)),
-        )
+        let misspelt = ("ouputs".to_owned(), BufferData::Output(4));
+        job.resources.buffers.extend([misspelt]);
     };
     let error = Fixture::new().run(device, spoil).unwrap_err();
     assert!(

@@ -4,12 +4,12 @@
 //! in range, and in the way to the driver. No tolerance is needed.
 
 use bossage_runner::{
-    Blend, Clear, Cull, Depth, Device, Draw, Mesh, RenderJob, RenderOutput, Resources, SamplerSettings,
-    Shader, TextureData,
+    Blend, Clear, Cull, Depth, Device, Draw, Error, Mesh, RenderJob, RenderOutput, Resources,
+    SamplerSettings, Shader, TextureData,
 };
 use bossage_translate::EmitOptions;
 
-use crate::support::{Compiled, bits, compile, compile_with, device};
+use crate::support::{bits, compile, compile_with, device};
 
 /// Everything that could tell up from down or front from back: derivatives, facing, the fragment's position, a picture
 /// without symmetry; and bindings with gaps.
@@ -70,7 +70,12 @@ fn picture() -> TextureData {
     TextureData::rgba8(8, 8, &large).with_level(&small)
 }
 
-fn render(device: &Device, vertex: Shader<'_>, fragment: Shader<'_>, cull: Cull) -> RenderOutput {
+fn try_render(
+    device: &Device,
+    vertex: Shader<'_>,
+    fragment: Shader<'_>,
+    cull: Cull,
+) -> Result<RenderOutput, Error> {
     let (mesh, picture) = (mesh(), picture());
     let mut resources = Resources::default();
     resources
@@ -102,7 +107,11 @@ fn render(device: &Device, vertex: Shader<'_>, fragment: Shader<'_>, cull: Cull)
         read_depth: true,
         draws: vec![draw],
     };
-    job.run(device).expect("a picture")
+    job.run(device)
+}
+
+fn render(device: &Device, vertex: Shader<'_>, fragment: Shader<'_>, cull: Cull) -> RenderOutput {
+    try_render(device, vertex, fragment, cull).expect("a picture")
 }
 
 fn target_bits(output: &RenderOutput, target: usize) -> Vec<u32> {
@@ -128,26 +137,6 @@ fn covered(output: &RenderOutput) -> usize {
         .count()
 }
 
-fn mixtures(surface: &Compiled) -> [(&'static str, Shader<'_>, Shader<'_>); 3] {
-    [
-        (
-            "both passed through",
-            surface.spirv("vertex"),
-            surface.spirv("fragment"),
-        ),
-        (
-            "vertex stage passed through",
-            surface.spirv("vertex"),
-            surface.wgsl("fragment"),
-        ),
-        (
-            "fragment stage passed through",
-            surface.wgsl("vertex"),
-            surface.spirv("fragment"),
-        ),
-    ]
-}
-
 #[test]
 fn passed_through_spirv_draws_the_same_picture() {
     let Some(device) = device("passed_through_spirv_draws_the_same_picture") else {
@@ -161,9 +150,8 @@ fn passed_through_spirv_draws_the_same_picture() {
             (100..1400).contains(&covered),
             "the picture shows something: {covered} pixels"
         );
-        for (what, vertex, fragment) in mixtures(&surface) {
-            assert_same(&wgsl, &render(device, vertex, fragment, cull), what);
-        }
+        let spirv = render(device, surface.spirv("vertex"), surface.spirv("fragment"), cull);
+        assert_same(&wgsl, &spirv, &format!("{cull:?}"));
     }
 }
 
@@ -219,4 +207,19 @@ fn stages_from_separate_modules_share_their_bindings() {
     );
     assert_same(&expected, &wgsl, "separate WGSL modules");
     assert_same(&expected, &spirv, "separate SPIR-V modules");
+}
+
+#[test]
+fn stages_that_take_different_routes_are_refused() {
+    let Some(device) = device("stages_that_take_different_routes_are_refused") else {
+        return;
+    };
+    let surface = compile(SURFACE);
+    for (vertex, fragment) in [
+        (surface.wgsl("vertex"), surface.spirv("fragment")),
+        (surface.spirv("vertex"), surface.wgsl("fragment")),
+    ] {
+        let error = try_render(device, vertex, fragment, Cull::None).unwrap_err();
+        assert!(matches!(error, Error::MixedRoutes { .. }), "{error}");
+    }
 }
