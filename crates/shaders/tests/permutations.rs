@@ -1,6 +1,7 @@
 //! Every module that the library can produce is valid WGSL by naga's rules, and there is a bounded number of them.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::time::Instant;
 
 use bossage_shaders::{AssembledShader, FeatureSet, Kernel, Library, PROBES, Result, Stage};
@@ -43,10 +44,10 @@ fn surface_modules(library: &Library) -> Result<BTreeMap<String, AssembledShader
                 Stage::Fragment => set.fragment().name(),
                 Stage::FragmentCapture => format!("{}-capture", set.fragment().name()),
             };
-            if !modules.contains_key(&name) {
+            if let Entry::Vacant(vacant) = modules.entry(name) {
                 let shader = library.assemble_surface(&set, stage)?;
-                assert_eq!(shader.name, name);
-                modules.insert(name, shader);
+                assert_eq!(&shader.name, vacant.key());
+                vacant.insert(shader);
             }
         }
     }
@@ -54,6 +55,10 @@ fn surface_modules(library: &Library) -> Result<BTreeMap<String, AssembledShader
 }
 
 #[test]
+#[expect(
+    clippy::print_stdout,
+    reason = "the number of permutations is a figure to watch, with --nocapture"
+)]
 fn every_reachable_permutation_is_valid() -> Result<()> {
     let library = Library::embedded()?;
     let start = Instant::now();
