@@ -88,16 +88,21 @@ pub(crate) fn type_contains(
 /// declaration. `None` if nothing is.
 pub(crate) fn find_type(unit: &Unit, wanted: impl Fn(&TypeInner) -> bool) -> Option<Span> {
     let module = &unit.module;
-    let (ty, _) = module.types.iter().find(|(_, ty)| wanted(&ty.inner))?;
     let global = module
         .global_variables
         .iter()
         .find(|(_, variable)| type_contains(module, variable.ty, &wanted))
         .map(|(handle, _)| module.global_variables.get_span(handle));
-    let place = global
+    let declared = || {
+        let mut types = module.types.iter();
+        types
+            .find(|(_, ty)| wanted(&ty.inner))
+            .map(|(handle, _)| module.types.get_span(handle))
+    };
+    global
         .or_else(|| find_local(unit, &wanted))
-        .or_else(|| find_value(unit, &wanted));
-    Some(place.unwrap_or_else(|| module.types.get_span(ty)))
+        .or_else(|| find_value(unit, &wanted))
+        .or_else(declared)
 }
 
 fn find_local(unit: &Unit, wanted: &impl Fn(&TypeInner) -> bool) -> Option<Span> {

@@ -6,6 +6,7 @@ pub mod cost;
 pub mod diagnostic;
 pub mod emit;
 pub mod external;
+mod features;
 mod front;
 mod guard;
 mod ir;

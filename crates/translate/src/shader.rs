@@ -10,9 +10,10 @@ use std::ops::Range;
 
 use naga::compact::{KeepUnused, compact};
 use naga::valid::{FunctionInfo, ModuleInfo};
-use naga::{GlobalVariable, Handle, Module, Span};
+use naga::{GlobalVariable, Handle, Module};
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::features::Features;
 use crate::front;
 use crate::guard::guard;
 use crate::manifest::OverrideValue;
@@ -39,6 +40,7 @@ pub struct Shader {
 #[derive(Clone, Debug)]
 pub(crate) struct Unit {
     pub(crate) stage: Stage,
+    pub(crate) features: Features,
     pub(crate) module: Module,
     pub(crate) info: ModuleInfo,
 }
@@ -158,12 +160,6 @@ impl Shader {
     pub(crate) fn overrides(&self) -> &[OverrideValue] {
         &self.overrides
     }
-
-    /// A diagnostic about a place in this shader.
-    pub(crate) fn diagnostic(&self, code: Code, message: impl Into<String>, span: Span) -> Diagnostic {
-        let place = front::range_in(&self.text, span).map(|range| (range, String::new()));
-        Diagnostic::new(code, message).at(&self.name, &self.text, place)
-    }
 }
 
 /// There must be an entry point, and every stage must be one that we emit.
@@ -235,5 +231,12 @@ pub(crate) fn reduce(name: &str, text: &str, mut module: Module) -> Result<Unit,
 pub(crate) fn unit(module: Module, info: ModuleInfo) -> Result<Unit, Diagnostic> {
     let stage = Stage::from_naga(module.entry_points[0].stage)
         .ok_or_else(|| Diagnostic::new(Code::Internal, "a stage was not checked"))?;
-    Ok(Unit { stage, module, info })
+    let mut unit = Unit {
+        stage,
+        features: Features::default(),
+        module,
+        info,
+    };
+    unit.features = Features::of(&unit);
+    Ok(unit)
 }

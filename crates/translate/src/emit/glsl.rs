@@ -46,11 +46,21 @@ pub(super) fn write(job: &Job<'_>) -> Result<Written, Diagnostic> {
         .write()
         .map_err(|error| glsl_features::diagnostic(job, &error))?;
     let placement = place(job, &units, &pairs, &reflection);
+    drop_invariant_input(&mut text);
     Ok(Written {
         contents: Contents::Text(text),
         entry_point: "main".to_owned(),
         placement,
     })
+}
+
+/// A struct that both stages share may mark its position `@invariant`; naga then writes `invariant gl_FragCoord;` into the
+/// fragment shader, which GLSL allows for outputs only. It says nothing there: the line goes.
+fn drop_invariant_input(text: &mut String) {
+    const LINE: &str = "invariant gl_FragCoord;\n";
+    if let Some(at) = text.find(LINE) {
+        text.replace_range(at..at + LINE.len(), "");
+    }
 }
 
 type Pairs = BTreeMap<Handle<GlobalVariable>, Handle<GlobalVariable>>;

@@ -11,230 +11,20 @@
 //! - MSL drops early depth tests, and reaches `unreachable!` on 64-bit floats in vertex inputs.
 //! - WGSL writes types that only naga reads (f64, i64, 16-bit integers, binding arrays).
 
-use naga::{Expression, ImageClass, Interpolation, Scalar, ScalarKind, Span, Statement, TypeInner};
-
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::Job;
-use crate::ir;
-use crate::shader::Unit;
+use crate::features::Feature;
 use crate::target::{GlslVersion, ShaderModel, Target};
-use crate::type_name::scalar_name;
-
-/// A thing that a shader may use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Feature {
-    Float16,
-    Float64,
-    Int16,
-    Int64,
-    BindingArray,
-    SamplerArray,
-    ExternalTexture,
-    RayQuery,
-    CooperativeMatrix,
-    Subgroup,
-    TextureGather,
-    PerVertex,
-    EarlyDepthTest,
-    ClipDistances,
-    Immediates,
-}
-
-impl Feature {
-    const ALL: [Self; 15] = [
-        Self::Float16,
-        Self::Float64,
-        Self::Int16,
-        Self::Int64,
-        Self::BindingArray,
-        Self::SamplerArray,
-        Self::ExternalTexture,
-        Self::RayQuery,
-        Self::CooperativeMatrix,
-        Self::Subgroup,
-        Self::TextureGather,
-        Self::PerVertex,
-        Self::EarlyDepthTest,
-        Self::ClipDistances,
-        Self::Immediates,
-    ];
-
-    fn name(self) -> String {
-        match self {
-            Self::Float16 => format!("16-bit floats ({})", scalar_name(Scalar::F16)),
-            Self::Float64 => format!("64-bit floats ({})", scalar_name(Scalar::F64)),
-            Self::Int16 => "16-bit integers".to_owned(),
-            Self::Int64 => "64-bit integers".to_owned(),
-            Self::BindingArray => "binding arrays".to_owned(),
-            Self::SamplerArray => "arrays of samplers".to_owned(),
-            Self::ExternalTexture => "external textures".to_owned(),
-            Self::RayQuery => "ray queries".to_owned(),
-            Self::CooperativeMatrix => "cooperative matrices".to_owned(),
-            Self::Subgroup => "subgroup operations".to_owned(),
-            Self::TextureGather => "textureGather".to_owned(),
-            Self::PerVertex => "per-vertex interpolation".to_owned(),
-            Self::EarlyDepthTest => "forced early depth tests".to_owned(),
-            Self::ClipDistances => "clip distances".to_owned(),
-            Self::Immediates => "push constants".to_owned(),
-        }
-    }
-
-    /// Where the shader uses it first; `None` if it does not.
-    fn find(self, unit: &Unit) -> Option<Span> {
-        match self {
-            Self::Float16 => find_scalar(unit, ScalarKind::Float, 2),
-            Self::Float64 => find_scalar(unit, ScalarKind::Float, 8),
-            Self::Int16 => find_integer(unit, 2),
-            Self::Int64 => find_integer(unit, 8),
-            Self::BindingArray => ir::find_type(unit, |t| matches!(t, TypeInner::BindingArray { .. })),
-            Self::SamplerArray => find_sampler_array(unit),
-            Self::ExternalTexture => ir::find_type(unit, |t| {
-                matches!(
-                    t,
-                    TypeInner::Image {
-                        class: ImageClass::External,
-                        ..
-                    }
-                )
-            }),
-            Self::RayQuery => ir::find_type(unit, |t| {
-                matches!(
-                    t,
-                    TypeInner::RayQuery { .. } | TypeInner::AccelerationStructure { .. }
-                )
-            }),
-            Self::CooperativeMatrix => {
-                ir::find_type(unit, |t| matches!(t, TypeInner::CooperativeMatrix { .. }))
-            }
-            Self::Subgroup => find_subgroup(unit),
-            Self::TextureGather => ir::find_expression(unit, |e| {
-                matches!(e, Expression::ImageSample { gather: Some(_), .. })
-            }),
-            Self::PerVertex => find_input(unit, |binding| {
-                matches!(
-                    binding,
-                    naga::Binding::Location {
-                        interpolation: Some(Interpolation::PerVertex),
-                        ..
-                    }
-                )
-            }),
-            Self::EarlyDepthTest => unit.entry().early_depth_test.map(|_| Span::UNDEFINED),
-            Self::ClipDistances => find_clip_distances(unit),
-            Self::Immediates => crate::resources::immediates(unit)
-                .map(|(handle, _)| unit.module.global_variables.get_span(handle)),
-        }
-    }
-
-    /// Why the target cannot express it; `None` if it can.
-    fn lacking(self, job: &Job<'_>) -> Option<String> {
-        let options = job.options;
-        match job.target {
-            Target::Spirv => self.lacking_in_spirv(),
-            Target::Hlsl => self.lacking_in_hlsl(options.hlsl),
-            Target::Msl => self.lacking_in_msl(options.msl),
-            Target::Glsl => self.lacking_in_glsl(options.glsl),
-            Target::Wgsl => self.lacking_in_wgsl(),
-        }
-    }
-
-    fn lacking_in_spirv(self) -> Option<String> {
-        (self == Self::ExternalTexture).then(|| "SPIR-V".to_owned())
-    }
-
-    fn lacking_in_hlsl(self, model: ShaderModel) -> Option<String> {
-        let from = |first: ShaderModel| {
-            (model < first).then(|| format!("HLSL shader model {model} (it comes with {first})"))
-        };
-        match self {
-            Self::Float16 | Self::Int16 => from(ShaderModel::V6_2),
-            Self::Int64 | Self::Subgroup => from(ShaderModel::V6_0),
-            Self::BindingArray => from(ShaderModel::V5_1),
-            Self::SamplerArray
-            | Self::ExternalTexture
-            | Self::RayQuery
-            | Self::CooperativeMatrix
-            | Self::PerVertex
-            | Self::EarlyDepthTest
-            | Self::ClipDistances => Some("HLSL as we emit it".to_owned()),
-            Self::Float64 | Self::TextureGather | Self::Immediates => None,
-        }
-    }
-
-    fn lacking_in_msl(self, version: (u8, u8)) -> Option<String> {
-        match self {
-            Self::Float64 => Some("MSL".to_owned()),
-            Self::Int64 if version < (2, 3) => {
-                Some(format!("MSL {}.{} (they come with 2.3)", version.0, version.1))
-            }
-            Self::ExternalTexture
-            | Self::RayQuery
-            | Self::CooperativeMatrix
-            | Self::PerVertex
-            | Self::EarlyDepthTest => Some("MSL as we emit it".to_owned()),
-            Self::Float16
-            | Self::Int16
-            | Self::Int64
-            | Self::BindingArray
-            | Self::SamplerArray
-            | Self::Subgroup
-            | Self::TextureGather
-            | Self::ClipDistances
-            | Self::Immediates => None,
-        }
-    }
-
-    fn lacking_in_glsl(self, version: GlslVersion) -> Option<String> {
-        match self {
-            Self::Float16
-            | Self::Int16
-            | Self::Int64
-            | Self::BindingArray
-            | Self::SamplerArray
-            | Self::ExternalTexture
-            | Self::RayQuery
-            | Self::CooperativeMatrix
-            | Self::PerVertex => Some("GLSL as we emit it".to_owned()),
-            Self::TextureGather => matches!(version, GlslVersion::Core330 | GlslVersion::Es300)
-                .then(|| format!("GLSL {version} (it comes with 400 and es310)")),
-            Self::EarlyDepthTest => matches!(version, GlslVersion::Core330 | GlslVersion::Es300)
-                .then(|| format!("GLSL {version} (they come with 420 and es310)")),
-            // naga's own check covers these, version by version.
-            Self::Float64 | Self::Subgroup | Self::ClipDistances | Self::Immediates => None,
-        }
-    }
-
-    fn lacking_in_wgsl(self) -> Option<String> {
-        match self {
-            Self::Float64
-            | Self::Int16
-            | Self::Int64
-            | Self::BindingArray
-            | Self::SamplerArray
-            | Self::RayQuery
-            | Self::CooperativeMatrix
-            | Self::PerVertex
-            | Self::EarlyDepthTest
-            | Self::Immediates => Some("WGSL (only naga's dialect has them)".to_owned()),
-            Self::Float16
-            | Self::ExternalTexture
-            | Self::Subgroup
-            | Self::TextureGather
-            | Self::ClipDistances => None,
-        }
-    }
-}
 
 /// Refuses what the target cannot express.
 pub(super) fn check(job: &Job<'_>) -> Result<(), Diagnostic> {
     check_version(job)?;
     for feature in Feature::ALL {
-        let Some(lacking) = feature.lacking(job) else {
-            continue;
-        };
-        if let Some(span) = feature.find(job.unit) {
+        if job.unit.features.contains(feature)
+            && let Some(lacking) = lacking(feature, job)
+        {
             let message = format!("{} cannot be expressed in {lacking}", feature.name());
-            return Err(job.refuse(Code::Unsupported, message, Some(span)));
+            return Err(job.refuse(Code::Unsupported, message, feature.find(job.unit)));
         }
     }
     Ok(())
@@ -261,44 +51,109 @@ fn check_version(job: &Job<'_>) -> Result<(), Diagnostic> {
     Err(Diagnostic::new(Code::Unsupported, message).in_file(job.shader.name()))
 }
 
-fn find_scalar(unit: &Unit, kind: ScalarKind, width: u8) -> Option<Span> {
-    ir::find_type(unit, |t| {
-        ir::scalar_of(t).is_some_and(|s| s.kind == kind && s.width == width)
-    })
+/// Why the target cannot express it; `None` if it can.
+fn lacking(feature: Feature, job: &Job<'_>) -> Option<String> {
+    let options = job.options;
+    match job.target {
+        Target::Spirv => in_spirv(feature),
+        Target::Hlsl => in_hlsl(feature, options.hlsl),
+        Target::Msl => in_msl(feature, options.msl),
+        Target::Glsl => in_glsl(feature, options.glsl),
+        Target::Wgsl => in_wgsl(feature),
+    }
 }
 
-fn find_integer(unit: &Unit, width: u8) -> Option<Span> {
-    find_scalar(unit, ScalarKind::Sint, width).or_else(|| find_scalar(unit, ScalarKind::Uint, width))
+fn in_spirv(feature: Feature) -> Option<String> {
+    (feature == Feature::ExternalTexture).then(|| "SPIR-V".to_owned())
 }
 
-fn find_sampler_array(unit: &Unit) -> Option<Span> {
-    ir::find_type(unit, |t| {
-        matches!(*t, TypeInner::BindingArray { base, .. }
-            if matches!(unit.module.types[base].inner, TypeInner::Sampler { .. }))
-    })
+fn in_hlsl(feature: Feature, model: ShaderModel) -> Option<String> {
+    let from = |first: ShaderModel| {
+        (model < first).then(|| format!("HLSL shader model {model} (it comes with {first})"))
+    };
+    match feature {
+        Feature::Float16 | Feature::Int16 => from(ShaderModel::V6_2),
+        Feature::Int64 | Feature::Subgroup => from(ShaderModel::V6_0),
+        Feature::BindingArray => from(ShaderModel::V5_1),
+        Feature::SamplerArray
+        | Feature::ExternalTexture
+        | Feature::RayQuery
+        | Feature::CooperativeMatrix
+        | Feature::PerVertex
+        | Feature::EarlyDepthTest
+        | Feature::ClipDistances => Some("HLSL as we emit it".to_owned()),
+        Feature::Float64 | Feature::TextureGather | Feature::Immediates | Feature::InvariantPosition => None,
+    }
 }
 
-fn find_subgroup(unit: &Unit) -> Option<Span> {
-    ir::find_statement(unit, |statement| {
-        matches!(
-            statement,
-            Statement::SubgroupBallot { .. }
-                | Statement::SubgroupGather { .. }
-                | Statement::SubgroupCollectiveOperation { .. }
-        )
-    })
+fn in_msl(feature: Feature, version: (u8, u8)) -> Option<String> {
+    match feature {
+        Feature::Float64 => Some("MSL".to_owned()),
+        Feature::Int64 if version < (2, 3) => {
+            Some(format!("MSL {}.{} (they come with 2.3)", version.0, version.1))
+        }
+        Feature::InvariantPosition if version < (2, 1) => {
+            Some(format!("MSL {}.{} (it comes with 2.1)", version.0, version.1))
+        }
+        Feature::ExternalTexture
+        | Feature::RayQuery
+        | Feature::CooperativeMatrix
+        | Feature::PerVertex
+        | Feature::EarlyDepthTest => Some("MSL as we emit it".to_owned()),
+        Feature::Float16
+        | Feature::Int16
+        | Feature::Int64
+        | Feature::BindingArray
+        | Feature::SamplerArray
+        | Feature::Subgroup
+        | Feature::TextureGather
+        | Feature::ClipDistances
+        | Feature::InvariantPosition
+        | Feature::Immediates => None,
+    }
 }
 
-fn find_input(unit: &Unit, wanted: impl Fn(&naga::Binding) -> bool) -> Option<Span> {
-    ir::interface(unit, false)
-        .iter()
-        .any(|(_, _, binding)| wanted(binding))
-        .then_some(Span::UNDEFINED)
+fn in_glsl(feature: Feature, version: GlslVersion) -> Option<String> {
+    match feature {
+        Feature::Float16
+        | Feature::Int16
+        | Feature::Int64
+        | Feature::BindingArray
+        | Feature::SamplerArray
+        | Feature::ExternalTexture
+        | Feature::RayQuery
+        | Feature::CooperativeMatrix
+        | Feature::PerVertex => Some("GLSL as we emit it".to_owned()),
+        Feature::TextureGather => matches!(version, GlslVersion::Core330 | GlslVersion::Es300)
+            .then(|| format!("GLSL {version} (it comes with 400 and es310)")),
+        Feature::EarlyDepthTest => matches!(version, GlslVersion::Core330 | GlslVersion::Es300)
+            .then(|| format!("GLSL {version} (they come with 420 and es310)")),
+        // naga's own check covers these, version by version.
+        Feature::Float64
+        | Feature::Subgroup
+        | Feature::ClipDistances
+        | Feature::Immediates
+        | Feature::InvariantPosition => None,
+    }
 }
 
-fn find_clip_distances(unit: &Unit) -> Option<Span> {
-    ir::interface(unit, true)
-        .iter()
-        .any(|(_, _, b)| *b == naga::Binding::BuiltIn(naga::BuiltIn::ClipDistances))
-        .then_some(Span::UNDEFINED)
+fn in_wgsl(feature: Feature) -> Option<String> {
+    match feature {
+        Feature::Float64
+        | Feature::Int16
+        | Feature::Int64
+        | Feature::BindingArray
+        | Feature::SamplerArray
+        | Feature::RayQuery
+        | Feature::CooperativeMatrix
+        | Feature::PerVertex
+        | Feature::EarlyDepthTest
+        | Feature::Immediates => Some("WGSL (only naga's dialect has them)".to_owned()),
+        Feature::Float16
+        | Feature::ExternalTexture
+        | Feature::Subgroup
+        | Feature::TextureGather
+        | Feature::ClipDistances
+        | Feature::InvariantPosition => None,
+    }
 }

@@ -116,7 +116,11 @@ fn detect_tool(tool: &Tool, folders: &[PathBuf]) -> Validator {
         .map(|folder| folder.join(&program))
         .find(|path| path.is_file());
     let Some(path) = found else {
-        return disabled(tool, None, format!("`{program}` was not found; {}", tool.how_to_get));
+        return disabled(
+            tool,
+            None,
+            format!("`{program}` was not found; {}", tool.how_to_get),
+        );
     };
     let arguments: Vec<String> = tool.version_arguments.iter().map(|&a| a.to_owned()).collect();
     let said = match run::run(&path, &arguments, &[], TIME_LIMIT, OUTPUT_LIMIT) {
@@ -207,7 +211,11 @@ fn verdict(
     }
     match run::run(path, &arguments, content, TIME_LIMIT, OUTPUT_LIMIT) {
         Ok(outcome) => {
-            let state = if outcome.success { CheckState::Pass } else { CheckState::Fail };
+            let state = if outcome.success {
+                CheckState::Pass
+            } else {
+                CheckState::Fail
+            };
             let message = outcome.output.trim().to_owned();
             if let (Some(dir), false) = (cache, outcome.crashed) {
                 cache::write(dir, &key, state, &message);

@@ -91,7 +91,10 @@ fn wait(child: &mut Child, time_limit: Duration) -> Result<ExitStatus, String> {
                 // Either fails only if the program has just ended, which is as good.
                 let _ = child.kill();
                 let _ = child.wait();
-                return Err(format!("took longer than {} s and was ended", time_limit.as_secs_f32()));
+                return Err(format!(
+                    "took longer than {} s and was ended",
+                    time_limit.as_secs_f32()
+                ));
             }
             Err(error) => return Err(format!("could not be waited for: {error}")),
         }
