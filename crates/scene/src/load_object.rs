@@ -43,9 +43,7 @@ pub(crate) fn objects(
     materials: Option<&[Material]>,
     files: &Files,
 ) -> Option<Vec<Object>> {
-    if root.need("objects", "at least one `[[objects]]`").is_none() {
-        return None;
-    }
+    root.need("objects", "at least one `[[objects]]`")?;
     let objects = named_list(root, "objects", |table| object(table, materials, files))?;
     if objects.is_empty() {
         root.get("objects")?

@@ -13,7 +13,7 @@ pub(crate) fn nearest<'a>(got: &str, known: impl IntoIterator<Item = &'a str>) -
 }
 
 /// ``did you mean `near`? `` where a name is near, then the list of what is known.
-pub(crate) fn hint<'a>(got: &str, what: &str, known: &[&'a str]) -> String {
+pub(crate) fn hint(got: &str, what: &str, known: &[&str]) -> String {
     let list = known
         .iter()
         .map(|name| format!("`{name}`"))
