@@ -25,21 +25,37 @@
 
 pub mod blinn_phong;
 pub mod codec_biased;
+pub mod codec_octahedral;
+pub mod codec_snorm;
+pub mod codec_two_channel;
 pub mod codec_unorm;
+pub mod cube;
+pub mod displacement;
 pub mod dot3;
+pub mod dot3_single_pass;
+pub mod dot3_two_pass;
+pub mod emboss;
+pub mod environment_bump;
+pub mod frame_from_normal;
 pub mod frame_from_uv;
 pub mod frame_mikktspace;
 pub mod height_to_normal;
 pub mod height_to_normal_forward;
 pub mod light_to_tangent;
+pub mod normal_mips;
 pub mod normal_transform;
+pub mod normalisation_cube_map;
 pub mod parallax_offset;
 pub mod parallax_offset_limited;
+pub mod parallax_slope_ao;
+pub mod parallax_slope_ao_directed;
 pub mod relief_truth;
+pub mod sphere;
 pub mod srgb;
 pub mod surface;
 pub mod texture;
 pub mod vector;
+pub mod wrap_lambert;
 
 /// Which form of a technique.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,0 +1,114 @@
+//! `dot3_two_pass`: the same picture as `dot3_single_pass` in two passes: the first writes the dot product to the target, the
+//! second draws the surface's colour and multiplies the target by it (blend: source × destination).
+//!
+//! Source: the third article, on hardware with two texture units only.
+//!
+//! What the detour costs in precision: the target rounds after each pass. With q the rounding to 1/255, one pass gives
+//! q(I·M), two give q(q(I)·M). |q(I) − I| ≤ 1/510 and M ≤ 1, so before the last rounding they are at most 1/510 apart, and
+//! after it at most **one code** of the target ([`LARGEST_DIFFERENCE_CODES`]). Where the blender rounds the source colour to
+//! the target's format first ([`Blender::RoundsSource`], allowed by the interfaces), it is at most two.
+
+use glam::DVec3;
+
+/// What the render target keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// Floats: nothing is rounded here.
+    Float,
+    /// Unsigned normalised bytes, clamped to [0, 1] and rounded to nearest.
+    Unorm8,
+}
+
+/// What the blending unit does to the source colour first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Blender {
+    /// Takes it as the shader wrote it.
+    TakesSource,
+    /// Rounds it to the target's format.
+    RoundsSource,
+}
+
+/// How many codes of a [`Target::Unorm8`] the two ways may differ by, for [`Blender::TakesSource`].
+pub const LARGEST_DIFFERENCE_CODES: u32 = 1;
+
+/// The same for [`Blender::RoundsSource`].
+pub const LARGEST_DIFFERENCE_CODES_ROUNDED_SOURCE: u32 = 2;
+
+impl Target {
+    /// A colour as the target keeps it.
+    #[must_use]
+    pub fn store(self, color: DVec3) -> DVec3 {
+        match self {
+            Target::Float => color,
+            Target::Unorm8 => (color.clamp(DVec3::ZERO, DVec3::ONE) * 255.0).round() / 255.0,
+        }
+    }
+}
+
+/// The first pass: the dot product in all channels, as the target keeps it.
+#[must_use]
+pub fn first_pass(intensity: f64, target: Target) -> DVec3 {
+    target.store(DVec3::splat(intensity))
+}
+
+/// The second pass: source × destination, as the target keeps it.
+#[must_use]
+pub fn second_pass(destination: DVec3, surface: DVec3, target: Target, blender: Blender) -> DVec3 {
+    let source = match blender {
+        Blender::TakesSource => surface,
+        Blender::RoundsSource => target.store(surface),
+    };
+    target.store(source * destination)
+}
+
+/// Both passes.
+#[must_use]
+pub fn shade(intensity: f64, surface: DVec3, target: Target, blender: Blender) -> DVec3 {
+    second_pass(first_pass(intensity, target), surface, target, blender)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::{Blender, LARGEST_DIFFERENCE_CODES, LARGEST_DIFFERENCE_CODES_ROUNDED_SOURCE, Target, shade};
+
+    /// Largest difference to one pass in codes of the target, over intensities and colours in steps of 1/1530 and 1/`m`.
+    fn worst_codes(blender: Blender, m: u32) -> u32 {
+        let pairs = (0..=1530).flat_map(|i| (0..=m).map(move |c| (f64::from(i) / 1530.0, f64::from(c) / f64::from(m))));
+        let codes = pairs.map(|(intensity, color)| {
+            let surface = DVec3::splat(color);
+            let two = shade(intensity, surface, Target::Unorm8, blender).x;
+            let one = Target::Unorm8.store(intensity * surface).x;
+            ((two - one) * 255.0).round().abs() as u32
+        });
+        codes.max().unwrap_or(0)
+    }
+
+    #[test]
+    fn known_answers() {
+        let two = |i, m| shade(i, DVec3::splat(m), Target::Unorm8, Blender::TakesSource).x * 255.0;
+        assert_eq!(two(1.0, 1.0).round(), 255.0);
+        assert_eq!(two(0.0, 1.0), 0.0);
+        // I = 0.5 is kept as 128/255; times M = 1 it is code 128, as in one pass.
+        assert_eq!(two(0.5, 1.0).round(), 128.0);
+        // I = 2.5/255 − ε is kept as 2/255; times 0.7 that is 1.4 → 1, in one pass 1.75 → 2.
+        assert_eq!(two(2.49 / 255.0, 0.7).round(), 1.0);
+        assert_eq!((Target::Unorm8.store(DVec3::splat(0.7 * 2.49 / 255.0)).x * 255.0).round(), 2.0);
+    }
+
+    #[test]
+    fn bytes_differ_by_no_more_than_the_bound_and_reach_it() {
+        assert_eq!(worst_codes(Blender::TakesSource, 255), LARGEST_DIFFERENCE_CODES);
+        assert_eq!(worst_codes(Blender::TakesSource, 1000), LARGEST_DIFFERENCE_CODES);
+        // A source of whole bytes is not rounded again.
+        assert_eq!(worst_codes(Blender::RoundsSource, 255), LARGEST_DIFFERENCE_CODES);
+        assert!(worst_codes(Blender::RoundsSource, 1000) <= LARGEST_DIFFERENCE_CODES_ROUNDED_SOURCE);
+    }
+
+    #[test]
+    fn floats_do_not_differ() {
+        let surface = DVec3::new(0.3, 0.6, 0.9);
+        assert_eq!(shade(0.7, surface, Target::Float, Blender::RoundsSource), 0.7 * surface);
+    }
+}
