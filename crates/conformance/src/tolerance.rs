@@ -221,5 +221,7 @@ pub const TABLE: &[Tolerance] = &[
 
 /// The bounds that the surface's analysis shares with the probes'.
 pub(crate) mod formula;
+pub(crate) mod surface;
+pub(crate) mod texture;
 
 use formula::*;

@@ -57,7 +57,9 @@ mod tests {
         // most 8·127.5 of 65536. The signed format has two codes for −1, so up to 2·256 pairs more.
         let corners = 1.0 - std::f64::consts::FRAC_PI_4;
         let cut = 8.0 * 127.5 / 65536.0;
-        let (unorm, snorm) = (unorm as f64 / 65536.0, snorm as f64 / 65536.0);
+        let unorm = broken(codec_unorm::decode_byte) as f64 / 65536.0;
+        let signed = |byte: u8| codec_snorm::decode(i32::from(byte as i8), codec_snorm::Bits::Eight);
+        let snorm = broken(signed) as f64 / 65536.0;
         assert!((unorm - corners).abs() < cut, "{unorm}");
         assert!((snorm - corners).abs() < cut + 512.0 / 65536.0, "{snorm}");
     }

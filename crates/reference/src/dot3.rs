@@ -22,11 +22,24 @@ pub fn hardened(normal: DVec3, light: DVec3, diffuse: DVec3) -> DVec3 {
     saturate(normal.dot(normalize_or_zero(light))) * diffuse
 }
 
+/// The texture combiner's form of the dot product on colours in [0, 1]: saturate(4 · Σ (a − ½)(b − ½)).
+#[must_use]
+pub fn combiner(a: DVec3, b: DVec3) -> f64 {
+    saturate(4.0 * (a - 0.5).dot(b - 0.5))
+}
+
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
 
-    use super::{hardened, published};
+    use super::{combiner, hardened, published};
+
+    #[test]
+    fn the_combiner_is_the_dot_product_of_decoded_colours() {
+        assert_eq!(combiner(DVec3::new(0.5, 0.5, 1.0), DVec3::new(0.5, 0.5, 1.0)), 1.0);
+        assert_eq!(combiner(DVec3::new(0.5, 0.5, 1.0), DVec3::new(0.5, 0.5, 0.0)), 0.0);
+        assert_eq!(combiner(DVec3::new(0.75, 0.5, 1.0), DVec3::new(1.0, 0.5, 0.5)), 0.5);
+    }
 
     #[test]
     fn facing_grazing_and_behind() {
