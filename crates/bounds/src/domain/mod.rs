@@ -42,7 +42,7 @@ impl Truth {
 ///
 /// Laws: for every operation, if the argument cells contain the arguments of a machine's operation, the result cell contains the
 /// result (for point domains: is the domain's own result); [`Domain::hull`] contains both arguments.
-pub trait Domain: sealed::Sealed + Copy + Send + Sync + 'static {
+pub trait Domain: sealed::Sealed + Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
     /// One scalar of any kind.
     type Cell: Copy + Default + PartialEq + std::fmt::Debug + Send + Sync + 'static;
     /// A float as callers see it.

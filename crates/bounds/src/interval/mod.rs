@@ -137,11 +137,6 @@ impl Interval {
     }
 
     #[inline(always)]
-    pub(crate) fn is_point(&self) -> bool {
-        self.lo == self.hi && self.flags.is_none()
-    }
-
-    #[inline(always)]
     pub(crate) fn flagged(mut self, flags: Flags) -> Self {
         self.flags = self.flags.union(flags);
         self
