@@ -45,7 +45,10 @@ pub fn decode(e: DVec2) -> DVec3 {
     let p = if z >= 0.0 {
         e
     } else {
-        DVec2::new((1.0 - e.y.abs()) * sign_not_zero(e.x), (1.0 - e.x.abs()) * sign_not_zero(e.y))
+        DVec2::new(
+            (1.0 - e.y.abs()) * sign_not_zero(e.x),
+            (1.0 - e.x.abs()) * sign_not_zero(e.y),
+        )
     };
     normalize(p.extend(z))
 }
@@ -71,7 +74,13 @@ mod tests {
 
     #[test]
     fn directions_come_back() {
-        let axes = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(0.0, 0.6, -0.8), DVec3::new(0.6, 0.0, -0.8)];
+        let axes = [
+            DVec3::X,
+            DVec3::Y,
+            DVec3::Z,
+            DVec3::new(0.0, 0.6, -0.8),
+            DVec3::new(0.6, 0.0, -0.8),
+        ];
         for d in axes.into_iter().flat_map(|a| [a, -a]).chain(fibonacci(10_000)) {
             // Some ten roundings of 2^-53 on numbers up to 1, stretched by at most √3 by the projection.
             assert!((decode(encode_hardened(d)) - d).length() < 3e-15, "{d}");
@@ -92,9 +101,14 @@ mod tests {
     #[test]
     fn two_bytes_hold_a_direction_to_less_than_a_degree() {
         let quantise = |e: DVec2| {
-            DVec2::from_array(e.to_array().map(|c| codec_snorm::decode(codec_snorm::encode(c, Bits::Eight), Bits::Eight)))
+            DVec2::from_array(
+                e.to_array()
+                    .map(|c| codec_snorm::decode(codec_snorm::encode(c, Bits::Eight), Bits::Eight)),
+            )
         };
-        let worst = fibonacci(100_000).map(|d| angle_deg(decode(quantise(encode_hardened(d))), d)).fold(0.0, f64::max);
+        let worst = fibonacci(100_000)
+            .map(|d| angle_deg(decode(quantise(encode_hardened(d))), d))
+            .fold(0.0, f64::max);
         // Half a step of 1/127 in x and in y moves the point of the octahedron by at most (½, ½, 1)/127, and the sphere is
         // at most √3 nearer than 1: √1.5·√3/127 rad = 0.957°.
         assert!(worst < 0.957 && worst > 0.5, "{worst}");

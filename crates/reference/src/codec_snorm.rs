@@ -43,9 +43,18 @@ mod tests {
 
     #[test]
     fn known_answers() {
-        assert_eq!([-2.0, -1.0, 0.0, 1.0, 2.0].map(|n| encode(n, Bits::Eight)), [-127, -127, 0, 127, 127]);
-        assert_eq!([-128, -127, 0, 127].map(|c| decode(c, Bits::Eight)), [-1.0, -1.0, 0.0, 1.0]);
-        assert_eq!([-32768, -32767, 0, 32767].map(|c| decode(c, Bits::Sixteen)), [-1.0, -1.0, 0.0, 1.0]);
+        assert_eq!(
+            [-2.0, -1.0, 0.0, 1.0, 2.0].map(|n| encode(n, Bits::Eight)),
+            [-127, -127, 0, 127, 127]
+        );
+        assert_eq!(
+            [-128, -127, 0, 127].map(|c| decode(c, Bits::Eight)),
+            [-1.0, -1.0, 0.0, 1.0]
+        );
+        assert_eq!(
+            [-32768, -32767, 0, 32767].map(|c| decode(c, Bits::Sixteen)),
+            [-1.0, -1.0, 0.0, 1.0]
+        );
     }
 
     #[test]

@@ -47,7 +47,9 @@ mod tests {
     /// How many of the 65536 pairs of codes make the published form fail.
     fn broken(decode: impl Fn(u8) -> f64) -> usize {
         let value: Vec<f64> = (0..=255).map(decode).collect();
-        let pairs = value.iter().flat_map(|&x| value.iter().map(move |&y| DVec2::new(x, y)));
+        let pairs = value
+            .iter()
+            .flat_map(|&x| value.iter().map(move |&y| DVec2::new(x, y)));
         pairs.filter(|&xy| decode_published(xy).is_nan()).count()
     }
 
@@ -68,7 +70,10 @@ mod tests {
     fn hardened_is_finite_for_all_codes_and_at_most_root_two_long() {
         let codes = (0..=255u8).flat_map(|r| (0..=255u8).map(move |g| [r, g]));
         for [r, g] in codes {
-            let n = decode_hardened(DVec2::new(codec_unorm::decode_byte(r), codec_unorm::decode_byte(g)));
+            let n = decode_hardened(DVec2::new(
+                codec_unorm::decode_byte(r),
+                codec_unorm::decode_byte(g),
+            ));
             assert!(n.is_finite() && n.length() <= 2f64.sqrt() + 1e-15);
         }
     }

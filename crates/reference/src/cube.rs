@@ -104,7 +104,12 @@ fn clamp(i: i64, size: u32) -> u32 {
 }
 
 /// Four texels, those beyond one border from the neighbouring face, the one beyond two as the mean of the other three.
-fn seamless(face: usize, at: [(i64, i64); 4], size: u32, texel: &impl Fn(usize, u32, u32) -> DVec4) -> [DVec4; 4] {
+fn seamless(
+    face: usize,
+    at: [(i64, i64); 4],
+    size: u32,
+    texel: &impl Fn(usize, u32, u32) -> DVec4,
+) -> [DVec4; 4] {
     let found = at.map(|(x, y)| beyond(face, x, y, size).map(|(face, x, y)| texel(face, x, y)));
     let mean = found.iter().flatten().sum::<DVec4>() / 3.0;
     found.map(|texel| texel.unwrap_or(mean))
@@ -134,7 +139,10 @@ mod tests {
     #[test]
     fn every_face_is_seen_right_way_round_from_inside() {
         // The cube map's handedness: s × t points inward on all faces, that is, along −major.
-        assert!(AXES.iter().all(|[major, s, t]| s.cross(*t) == *major * AXES[0][1].cross(AXES[0][2]).x));
+        assert!(
+            AXES.iter()
+                .all(|[major, s, t]| s.cross(*t) == *major * AXES[0][1].cross(AXES[0][2]).x)
+        );
         assert!((0..6).all(|face| face_of(AXES[face][0]) == face));
     }
 
@@ -171,7 +179,10 @@ mod tests {
                 let here = texel_centre(face, x.clamp(0, 7), y.clamp(0, 7), size);
                 let there = texel_centre(neighbour, i64::from(i), i64::from(j), size);
                 // Both are half a texel (1/8 of the cube's half edge) from the edge, and at the same place along it.
-                assert!((here - there).length() <= 2f64.sqrt() / 8.0 + 1e-15, "{face} {x} {y}");
+                assert!(
+                    (here - there).length() <= 2f64.sqrt() / 8.0 + 1e-15,
+                    "{face} {x} {y}"
+                );
             }
         }
         assert_eq!(beyond(0, -1, -1, size), None);
@@ -179,7 +190,9 @@ mod tests {
 
     #[test]
     fn seamless_lookups_are_continuous_and_clamped_ones_are_not() {
-        let texel = |face: usize, x: u32, y: u32| texel_centre(face, i64::from(x), i64::from(y), 4).extend(face as f64);
+        let texel = |face: usize, x: u32, y: u32| {
+            texel_centre(face, i64::from(x), i64::from(y), 4).extend(face as f64)
+        };
         let step = |seams, at: DVec3| {
             let across = |side: f64| sample(at + side * 1e-9 * DVec3::X, 4, seams, texel);
             (across(1.0) - across(-1.0)).length()

@@ -61,7 +61,11 @@ pub fn position(position: DVec3, normal: DVec3, height: f64, scale: f64, bias: f
 /// cross product is turned outward again; a tile without area gives zero.
 #[must_use]
 pub fn normal(tile: &Tile, slope: DVec2) -> DVec3 {
-    let Tile { normal, along_u, along_v } = *tile;
+    let Tile {
+        normal,
+        along_u,
+        along_v,
+    } = *tile;
     let outward = sign_not_zero(along_u.cross(along_v).dot(normal));
     normalize_or_zero(outward * (along_u + slope.x * normal).cross(along_v + slope.y * normal))
 }
@@ -82,7 +86,10 @@ fn cell(field: &HeightField, edge: EdgeMode, uv: DVec2) -> ([[f64; 2]; 2], DVec2
     let base = p.floor();
     let (i, j) = (base.x as i64, base.y as i64);
     let h = |dx: i64, dy: i64| {
-        f64::from(field.texel(edge.resolve(i + dx, field.width), edge.resolve(j + dy, field.height)))
+        f64::from(field.texel(
+            edge.resolve(i + dx, field.width),
+            edge.resolve(j + dy, field.height),
+        ))
     };
     ([[h(0, 0), h(1, 0)], [h(0, 1), h(1, 1)]], p - base)
 }
@@ -96,7 +103,11 @@ mod tests {
 
     use super::{Tile, gradient_bilinear, gradient_central, height, normal, normal_ts, position};
 
-    const SQUARE: Tile = Tile { normal: DVec3::Z, along_u: DVec3::X, along_v: DVec3::Y };
+    const SQUARE: Tile = Tile {
+        normal: DVec3::Z,
+        along_u: DVec3::X,
+        along_v: DVec3::Y,
+    };
 
     #[test]
     fn a_ramp_is_known() {
@@ -107,7 +118,10 @@ mod tests {
         for gradient in [gradient_bilinear, gradient_central] {
             assert!((gradient(&ramp, EdgeMode::Clamp, uv) - DVec2::X).length() < 1e-14);
         }
-        assert_eq!(position(DVec3::X, DVec3::Z, 0.5, 0.5, -0.125, 4.0), DVec3::new(1.0, 0.0, 0.5));
+        assert_eq!(
+            position(DVec3::X, DVec3::Z, 0.5, 0.5, -0.125, 4.0),
+            DVec3::new(1.0, 0.0, 0.5)
+        );
     }
 
     #[test]
@@ -127,12 +141,17 @@ mod tests {
             let uv = DVec2::new(0.013 + f64::from(i) * 0.0097, 0.9 - f64::from(i) * 0.0083);
             let step = 1e-7;
             let along = |d: DVec2| {
-                (height(&field, EdgeMode::Wrap, uv + step * d) - height(&field, EdgeMode::Wrap, uv - step * d)) / (2.0 * step)
+                (height(&field, EdgeMode::Wrap, uv + step * d)
+                    - height(&field, EdgeMode::Wrap, uv - step * d))
+                    / (2.0 * step)
             };
             let numeric = DVec2::new(along(DVec2::X), along(DVec2::Y));
             // On a patch h is linear along each axis, so the quotient is exact but for rounding: 4·2^-53/1e-7 = 4e-9, and the
             // rounding of uv·16: 2^-53·16/1e-7·slope 32. No sample is within 1e-7 of a cell's border.
-            assert!((gradient_bilinear(&field, EdgeMode::Wrap, uv) - numeric).length() < 1e-6, "{uv}");
+            assert!(
+                (gradient_bilinear(&field, EdgeMode::Wrap, uv) - numeric).length() < 1e-6,
+                "{uv}"
+            );
         }
     }
 
@@ -161,11 +180,26 @@ mod tests {
         assert!((normal(&SQUARE, slope) - DVec3::new(-0.6, 0.0, 0.8)).length() < 1e-15);
         assert_eq!(normal(&SQUARE, slope), normal_ts(slope));
         // A tile three units wide: the same rise over three times the way.
-        let wide = Tile { along_u: 3.0 * DVec3::X, ..SQUARE };
+        let wide = Tile {
+            along_u: 3.0 * DVec3::X,
+            ..SQUARE
+        };
         assert!((normal(&wide, DVec2::new(2.25, 0.0)) - DVec3::new(-0.6, 0.0, 0.8)).length() < 1e-15);
         // Mirrored along u: the rise is toward −x, and the normal still outward.
-        let mirrored = Tile { along_u: -DVec3::X, ..SQUARE };
+        let mirrored = Tile {
+            along_u: -DVec3::X,
+            ..SQUARE
+        };
         assert!((normal(&mirrored, slope) - DVec3::new(0.6, 0.0, 0.8)).length() < 1e-15);
-        assert_eq!(normal(&Tile { along_u: DVec3::ZERO, ..SQUARE }, DVec2::ZERO), DVec3::ZERO);
+        assert_eq!(
+            normal(
+                &Tile {
+                    along_u: DVec3::ZERO,
+                    ..SQUARE
+                },
+                DVec2::ZERO
+            ),
+            DVec3::ZERO
+        );
     }
 }

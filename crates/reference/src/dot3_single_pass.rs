@@ -59,7 +59,10 @@ mod tests {
 
     #[test]
     fn known_answers() {
-        assert_eq!(shade(UP, UP, DVec3::new(1.0, 0.5, 0.25)), DVec3::new(1.0, 0.5, 0.25));
+        assert_eq!(
+            shade(UP, UP, DVec3::new(1.0, 0.5, 0.25)),
+            DVec3::new(1.0, 0.5, 0.25)
+        );
         assert_eq!(shade(UP, DVec3::new(1.0, 0.5, 0.5), DVec3::ONE), DVec3::ZERO);
         // L = (0.6, 0, 0.8)·7 on N = z.
         let light = Normaliser::Arithmetic.color(DVec3::new(4.2, 0.0, 5.6));
@@ -70,7 +73,10 @@ mod tests {
     fn the_cube_and_the_division_agree_to_the_map_s_error() {
         let cube = Normaliser::Cube(Map::new(64, Depth::Eight));
         for l in fibonacci(2000).map(|d| 3.0 * d) {
-            let (a, b) = (intensity(UP, cube.color(l)), intensity(UP, Normaliser::Arithmetic.color(l)));
+            let (a, b) = (
+                intensity(UP, cube.color(l)),
+                intensity(UP, Normaliser::Arithmetic.color(l)),
+            );
             // 8 bits: 1/255 in n.z; filtering: half a texel clamped at a border, 1/64 of slope at most 1.
             assert!((a - b).abs() <= 1.0 / 255.0 + 1.0 / 64.0, "{l}");
         }

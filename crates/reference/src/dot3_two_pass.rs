@@ -75,7 +75,8 @@ mod tests {
 
     /// Largest difference to one pass in codes of the target, over intensities and colours in steps of 1/1530 and 1/`m`.
     fn worst_codes(blender: Blender, m: u32) -> u32 {
-        let pairs = (0..=1530).flat_map(|i| (0..=m).map(move |c| (f64::from(i) / 1530.0, f64::from(c) / f64::from(m))));
+        let pairs = (0..=1530)
+            .flat_map(|i| (0..=m).map(move |c| (f64::from(i) / 1530.0, f64::from(c) / f64::from(m))));
         let codes = pairs.map(|(intensity, color)| {
             let surface = DVec3::splat(color);
             let two = shade(intensity, surface, Target::Unorm8, blender).x;
@@ -94,7 +95,10 @@ mod tests {
         assert_eq!(two(0.5, 1.0).round(), 128.0);
         // I = 2.5/255 − ε is kept as 2/255; times 0.7 that is 1.4 → 1, in one pass 1.75 → 2.
         assert_eq!(two(2.49 / 255.0, 0.7).round(), 1.0);
-        assert_eq!((Target::Unorm8.store(DVec3::splat(0.7 * 2.49 / 255.0)).x * 255.0).round(), 2.0);
+        assert_eq!(
+            (Target::Unorm8.store(DVec3::splat(0.7 * 2.49 / 255.0)).x * 255.0).round(),
+            2.0
+        );
     }
 
     #[test]
@@ -109,6 +113,9 @@ mod tests {
     #[test]
     fn floats_do_not_differ() {
         let surface = DVec3::new(0.3, 0.6, 0.9);
-        assert_eq!(shade(0.7, surface, Target::Float, Blender::RoundsSource), 0.7 * surface);
+        assert_eq!(
+            shade(0.7, surface, Target::Float, Blender::RoundsSource),
+            0.7 * surface
+        );
     }
 }

@@ -43,7 +43,11 @@ mod tests {
     /// A ridge: height rises to the middle of the tile and falls again.
     fn ridge() -> Texture {
         let heights = [0.0, 0.25, 0.5, 0.75, 0.75, 0.5, 0.25, 0.0];
-        Texture { width: 8, height: 1, texels: heights.map(|h| DVec4::new(h, 0.0, 0.0, 1.0)).to_vec() }
+        Texture {
+            width: 8,
+            height: 1,
+            texels: heights.map(|h| DVec4::new(h, 0.0, 0.0, 1.0)).to_vec(),
+        }
     }
 
     fn at(u: f64, light_ts: DVec3) -> f64 {
@@ -67,6 +71,9 @@ mod tests {
 
     #[test]
     fn the_sum_stays_a_colour() {
-        assert_eq!([lit(0.5, 0.75, 0.5), lit(0.9, 1.0, 0.0), lit(0.1, 0.0, 1.0)], [0.75, 1.0, 0.0]);
+        assert_eq!(
+            [lit(0.5, 0.75, 0.5), lit(0.9, 1.0, 0.0), lit(0.1, 0.0, 1.0)],
+            [0.75, 1.0, 0.0]
+        );
     }
 }

@@ -85,8 +85,15 @@ mod tests {
     #[test]
     fn faces_come_from_their_directions() {
         let colors = (0..6).flat_map(|face| [DVec4::splat(f64::from(face)); 4]);
-        let cube = Environment { size: 2, texels: colors.collect(), seams: Seams::Face };
+        let cube = Environment {
+            size: 2,
+            texels: colors.collect(),
+            seams: Seams::Face,
+        };
         let axes = [DVec3::X, -DVec3::X, DVec3::Y, -DVec3::Y, DVec3::Z, -DVec3::Z];
-        assert_eq!(axes.map(|d| cube.sample(3.0 * d).x), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]);
+        assert_eq!(
+            axes.map(|d| cube.sample(3.0 * d).x),
+            [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]
+        );
     }
 }

@@ -24,14 +24,20 @@ use crate::vector::{normalize, sign_not_zero};
 pub fn published(n: DVec3) -> Tangents {
     let a = DVec3::new(n.y, -n.z, n.x);
     let tangent = n.cross(a);
-    Tangents { tangent, bitangent: tangent.cross(n) }
+    Tangents {
+        tangent,
+        bitangent: tangent.cross(n),
+    }
 }
 
 /// As published, then both normalised as a shader has to: NaN on the axis (−1, 1, 1).
 #[must_use]
 pub fn published_unit(n: DVec3) -> Tangents {
     let Tangents { tangent, bitangent } = published(n);
-    Tangents { tangent: normalize(tangent), bitangent: normalize(bitangent) }
+    Tangents {
+        tangent: normalize(tangent),
+        bitangent: normalize(bitangent),
+    }
 }
 
 /// Hardened: unit, orthogonal and right-handed (B = N × T, w = +1) for every unit vector.
@@ -51,9 +57,16 @@ pub fn hardened(n: DVec3) -> Tangents {
 /// takes a root, and turns by a quarter where |n.x| = |n.z|.
 #[must_use]
 pub fn hughes_moller(n: DVec3) -> Tangents {
-    let across = if n.x.abs() > n.z.abs() { DVec3::new(-n.y, n.x, 0.0) } else { DVec3::new(0.0, -n.z, n.y) };
+    let across = if n.x.abs() > n.z.abs() {
+        DVec3::new(-n.y, n.x, 0.0)
+    } else {
+        DVec3::new(0.0, -n.z, n.y)
+    };
     let bitangent = normalize(across);
-    Tangents { tangent: bitangent.cross(n), bitangent }
+    Tangents {
+        tangent: bitangent.cross(n),
+        bitangent,
+    }
 }
 
 /// Frisvad's threshold: below it the formula gives way to a constant frame.
@@ -64,7 +77,10 @@ pub const FRISVAD_THRESHOLD: f64 = -0.999_999_9;
 #[must_use]
 pub fn frisvad(n: DVec3) -> Tangents {
     if n.z < FRISVAD_THRESHOLD {
-        return Tangents { tangent: DVec3::NEG_Y, bitangent: DVec3::NEG_X };
+        return Tangents {
+            tangent: DVec3::NEG_Y,
+            bitangent: DVec3::NEG_X,
+        };
     }
     let a = 1.0 / (1.0 + n.z);
     let b = -n.x * n.y * a;
@@ -78,7 +94,10 @@ pub fn frisvad(n: DVec3) -> Tangents {
 /// that holds NaN.
 #[must_use]
 pub fn orthonormality_error(n: DVec3, frame: Tangents) -> f64 {
-    let Tangents { tangent: t, bitangent: b } = frame;
+    let Tangents {
+        tangent: t,
+        bitangent: b,
+    } = frame;
     let errors = [t.length() - 1.0, b.length() - 1.0, t.dot(b), n.dot(t), n.dot(b)];
     if errors.iter().any(|e| e.is_nan()) {
         return f64::NAN;

@@ -49,13 +49,19 @@ impl Level {
             (f64::from(i) * scale, f64::from(i + 1) * scale)
         };
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        let texels = places.map(|(x, y)| self.average(cell(x, self.width, width), cell(y, self.height, height)));
-        Level { width, height, texels: texels.collect() }
+        let texels =
+            places.map(|(x, y)| self.average(cell(x, self.width, width), cell(y, self.height, height)));
+        Level {
+            width,
+            height,
+            texels: texels.collect(),
+        }
     }
 
     /// The mean over a rectangle in texels, each texel a constant square.
     fn average(&self, columns: (f64, f64), rows: (f64, f64)) -> DVec3 {
-        let overlap = |i: u32, (low, high): (f64, f64)| (high.min(f64::from(i) + 1.0) - low.max(f64::from(i))).max(0.0);
+        let overlap =
+            |i: u32, (low, high): (f64, f64)| (high.min(f64::from(i) + 1.0) - low.max(f64::from(i))).max(0.0);
         let touched = |(low, high): (f64, f64), side: u32| low as u32..(high.ceil() as u32).min(side);
         let mut sum = DVec3::ZERO;
         for y in touched(rows, self.height) {
@@ -80,7 +86,11 @@ pub fn chain(base: Level) -> Vec<Level> {
 /// The normal of an average, unit; (0, 0, 1) where the average vanishes.
 #[must_use]
 pub fn naive(mean: DVec3) -> DVec3 {
-    if mean == DVec3::ZERO { DVec3::Z } else { normalize(mean) }
+    if mean == DVec3::ZERO {
+        DVec3::Z
+    } else {
+        normalize(mean)
+    }
 }
 
 #[cfg(test)]
@@ -90,16 +100,32 @@ mod tests {
     use super::{Level, chain, naive};
 
     fn row(texels: &[DVec3]) -> Level {
-        Level { width: texels.len() as u32, height: 1, texels: texels.to_vec() }
+        Level {
+            width: texels.len() as u32,
+            height: 1,
+            texels: texels.to_vec(),
+        }
     }
 
     #[test]
     fn sides_and_flat_maps() {
-        let flat = Level { width: 13, height: 5, texels: vec![DVec3::Z; 65] };
+        let flat = Level {
+            width: 13,
+            height: 5,
+            texels: vec![DVec3::Z; 65],
+        };
         let levels = chain(flat);
-        assert_eq!(levels.iter().map(|l| (l.width, l.height)).collect::<Vec<_>>(), [(13, 5), (6, 2), (3, 1), (1, 1)]);
+        assert_eq!(
+            levels.iter().map(|l| (l.width, l.height)).collect::<Vec<_>>(),
+            [(13, 5), (6, 2), (3, 1), (1, 1)]
+        );
         // Nine weights of few roundings each: below 32·2^-53.
-        assert!(levels.iter().flat_map(|l| &l.texels).all(|n| (*n - DVec3::Z).length() < 4e-15));
+        assert!(
+            levels
+                .iter()
+                .flat_map(|l| &l.texels)
+                .all(|n| (*n - DVec3::Z).length() < 4e-15)
+        );
     }
 
     #[test]
@@ -122,7 +148,9 @@ mod tests {
     #[test]
     fn witness_normalising_forgets_the_roughness() {
         // Two surfaces, one rough and one smooth, end in the same normal.
-        let rough = row(&[DVec3::new(0.8, 0.0, 0.6), DVec3::new(-0.8, 0.0, 0.6)]).next().mean(0, 0);
+        let rough = row(&[DVec3::new(0.8, 0.0, 0.6), DVec3::new(-0.8, 0.0, 0.6)])
+            .next()
+            .mean(0, 0);
         let smooth = row(&[DVec3::Z, DVec3::Z]).next().mean(0, 0);
         assert_eq!(naive(rough), naive(smooth));
         assert!(smooth.length() - rough.length() > 0.39);

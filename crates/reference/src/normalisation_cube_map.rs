@@ -10,11 +10,11 @@
 //! clamp at face borders (half a texel there, first order); and the code's, which do not fall at all: at 8 bits they are the
 //! larger part from 64² on.
 
-use glam::{DVec3, DVec4};
+use glam::{DVec2, DVec3, DVec4};
 
 use crate::codec_unorm::{decode, encode};
 use crate::cube::{self, Seams};
-use crate::sphere::{angle_deg, fibonacci};
+use crate::sphere::angle_deg;
 use crate::vector::normalize;
 
 /// How a component is stored.
@@ -55,7 +55,11 @@ impl Map {
     /// A map filtered within its faces.
     #[must_use]
     pub fn new(size: u32, depth: Depth) -> Self {
-        Self { size, depth, seams: Seams::Face }
+        Self {
+            size,
+            depth,
+            seams: Seams::Face,
+        }
     }
 
     /// The stored colour of a texel, in [0, 1].
@@ -78,20 +82,40 @@ impl Map {
         DVec3::from_array(self.color(direction).to_array().map(decode))
     }
 
-    /// Errors over `samples` directions spread evenly over the sphere, by angle and by length.
+    /// Errors over directions, by angle and by length. What is meant by root mean square depends on their spread: see
+    /// [`fibonacci`](crate::sphere::fibonacci) for even by solid angle and [`faces_evenly`] for even over the faces.
     #[must_use]
-    pub fn errors(&self, samples: u32) -> Errors {
-        let mut errors = Errors { rms_deg: 0.0, max_deg: 0.0, shortest: f64::INFINITY, longest: 0.0 };
-        for direction in fibonacci(samples) {
+    pub fn errors(&self, directions: impl IntoIterator<Item = DVec3>) -> Errors {
+        let mut errors = Errors {
+            rms_deg: 0.0,
+            max_deg: 0.0,
+            shortest: f64::INFINITY,
+            longest: 0.0,
+        };
+        let mut count = 0.0;
+        for direction in directions {
             let found = self.lookup(direction);
             let angle = angle_deg(found, direction);
-            errors.rms_deg += angle * angle / f64::from(samples);
+            count += 1.0;
+            errors.rms_deg += angle * angle;
             errors.max_deg = errors.max_deg.max(angle);
             errors.shortest = errors.shortest.min(found.length());
             errors.longest = errors.longest.max(found.length());
         }
-        Errors { rms_deg: errors.rms_deg.sqrt(), ..errors }
+        Errors {
+            rms_deg: (errors.rms_deg / count).sqrt(),
+            ..errors
+        }
     }
+}
+
+/// Points spread evenly over the cube's faces, `count` each, on the lattice of the R2 sequence (Roberts 2018).
+pub fn faces_evenly(count: u32) -> impl Iterator<Item = DVec3> {
+    // The plastic number: the root of x³ = x + 1.
+    let plastic = 1.324_717_957_244_746;
+    let step = DVec2::new(1.0 / plastic, 1.0 / (plastic * plastic));
+    let place = move |i: u32| (0.5 + f64::from(i) * step).fract();
+    (0..6).flat_map(move |face| (0..count).map(move |i| cube::point(face, place(i))))
 }
 
 /// What a lookup gets wrong.

@@ -50,13 +50,19 @@ pub fn delta_hardened(map_normal: DVec3, normal: DVec3, view: DVec3, height: f64
 /// As published.
 #[must_use]
 pub fn published(uv: DVec2, delta: f64, occlusion_scale: f64) -> Shift {
-    Shift { uv: uv - DVec2::splat(delta), ambient_occlusion: 1.0 - (occlusion_scale * delta).max(0.0) }
+    Shift {
+        uv: uv - DVec2::splat(delta),
+        ambient_occlusion: 1.0 - (occlusion_scale * delta).max(0.0),
+    }
 }
 
 /// Hardened: the occlusion stays in [0, 1].
 #[must_use]
 pub fn hardened(uv: DVec2, delta: f64, occlusion_scale: f64) -> Shift {
-    Shift { uv: uv - DVec2::splat(delta), ambient_occlusion: occlusion(delta, occlusion_scale) }
+    Shift {
+        uv: uv - DVec2::splat(delta),
+        ambient_occlusion: occlusion(delta, occlusion_scale),
+    }
 }
 
 /// 1 − k·Δ, in [0, 1].
@@ -86,7 +92,11 @@ mod tests {
         // n = (0.6, 0, 0.8): f₁ = 0.36, f₂ = 0.8 from straight above, h = 0.5: Δ = 0.00576, ao = 1 − 0.2304.
         let n = DVec3::new(0.6, 0.0, 0.8);
         for delta in [delta_published, delta_hardened] {
-            let shift = published(UV, delta(n, DVec3::Z, DVec3::Z, 0.5, OFFSET_SCALE), OCCLUSION_SCALE);
+            let shift = published(
+                UV,
+                delta(n, DVec3::Z, DVec3::Z, 0.5, OFFSET_SCALE),
+                OCCLUSION_SCALE,
+            );
             // Some ten roundings of 2^-53 relative; k magnifies.
             assert!((shift.uv - (UV - 0.00576)).length() < 1e-16 + 1e-16);
             assert!((shift.ambient_occlusion - 0.7696).abs() < 1e-15);
@@ -106,9 +116,15 @@ mod tests {
         // |n| = 1.2 along N: f₁ = 1 − 1.44 = −0.44, f₂ = 1.2, Δ = −0.02112 at h = 1: flat ground moves by half its scale.
         let delta = delta_published(1.2 * DVec3::Z, DVec3::Z, DVec3::Z, 1.0, OFFSET_SCALE);
         assert!((delta + 0.02112).abs() < 1e-16);
-        assert_eq!(delta_hardened(1.2 * DVec3::Z, DVec3::Z, DVec3::Z, 1.0, OFFSET_SCALE), 0.0);
+        assert_eq!(
+            delta_hardened(1.2 * DVec3::Z, DVec3::Z, DVec3::Z, 1.0, OFFSET_SCALE),
+            0.0
+        );
         // |n| = 0.5, as mip maps make them: flat ground counts as sloped, f₁ = 0.75.
-        assert_eq!(delta_published(0.5 * DVec3::Z, DVec3::Z, DVec3::Z, 1.0, 1.0), 0.375);
+        assert_eq!(
+            delta_published(0.5 * DVec3::Z, DVec3::Z, DVec3::Z, 1.0, 1.0),
+            0.375
+        );
     }
 
     #[test]
@@ -117,7 +133,13 @@ mod tests {
         let n = DVec3::new(0.3, 0.2, 0.9).normalize();
         for i in 0..8 {
             let (sin, cos) = (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos();
-            let delta = delta_published(n, DVec3::Z, DVec3::new(0.6 * cos, 0.6 * sin, 0.8), 1.0, OFFSET_SCALE);
+            let delta = delta_published(
+                n,
+                DVec3::Z,
+                DVec3::new(0.6 * cos, 0.6 * sin, 0.8),
+                1.0,
+                OFFSET_SCALE,
+            );
             let moved = published(UV, delta, OCCLUSION_SCALE).uv - UV;
             assert!(moved.x == moved.y || (moved.x - moved.y).abs() < 1e-16);
             assert!(moved.x < 0.0, "always toward −u and −v");
@@ -132,6 +154,9 @@ mod tests {
             assert!((0.0..=OFFSET_SCALE).contains(&delta));
             assert!((0.0..=1.0).contains(&hardened(UV, delta, OCCLUSION_SCALE).ambient_occlusion));
         }
-        assert_eq!(delta_hardened(DVec3::ZERO, DVec3::Z, DVec3::Z, 1.0, OFFSET_SCALE), 0.0);
+        assert_eq!(
+            delta_hardened(DVec3::ZERO, DVec3::Z, DVec3::Z, 1.0, OFFSET_SCALE),
+            0.0
+        );
     }
 }

@@ -14,7 +14,10 @@ use crate::parallax_slope_ao::{Shift, occlusion};
 /// The shift along the view, and the occlusion in [0, 1].
 #[must_use]
 pub fn shift(uv: DVec2, view_ts: DVec3, delta: f64, occlusion_scale: f64) -> Shift {
-    Shift { uv: uv + delta * view_ts.truncate(), ambient_occlusion: occlusion(delta, occlusion_scale) }
+    Shift {
+        uv: uv + delta * view_ts.truncate(),
+        ambient_occlusion: occlusion(delta, occlusion_scale),
+    }
 }
 
 #[cfg(test)]
@@ -29,13 +32,19 @@ mod tests {
             let (sin, cos) = (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos();
             let view = DVec3::new(0.6 * cos, 0.6 * sin, 0.8);
             let moved = shift(DVec2::ZERO, view, 0.04, 40.0).uv;
-            assert!((moved - 0.024 * DVec2::new(cos, sin)).length() < 1e-17 + 1e-17, "{i}");
+            assert!(
+                (moved - 0.024 * DVec2::new(cos, sin)).length() < 1e-17 + 1e-17,
+                "{i}"
+            );
         }
     }
 
     #[test]
     fn from_straight_above_nothing_moves_and_the_occlusion_stays() {
         let straight = shift(DVec2::splat(0.5), DVec3::Z, 0.01, 40.0);
-        assert_eq!((straight.uv, straight.ambient_occlusion), (DVec2::splat(0.5), 0.6));
+        assert_eq!(
+            (straight.uv, straight.ambient_occlusion),
+            (DVec2::splat(0.5), 0.6)
+        );
     }
 }

@@ -30,7 +30,9 @@ mod tests {
     #[test]
     fn even_and_unit() {
         let n = 10_000;
-        let (sum, longest) = fibonacci(n).fold((DVec3::ZERO, 0.0_f64), |(s, l), d| (s + d, l.max((d.length() - 1.0).abs())));
+        let (sum, longest) = fibonacci(n).fold((DVec3::ZERO, 0.0_f64), |(s, l), d| {
+            (s + d, l.max((d.length() - 1.0).abs()))
+        });
         assert!(longest < 1e-15);
         // The mean of an even set is near 0; a random set of 10⁴ would have 0.01.
         assert!(sum.length() / f64::from(n) < 1e-3);

@@ -35,7 +35,11 @@ pub fn factor_hardened(ambient_occlusion: f64, ambient: f64, normal: DVec3, ligh
 /// As published: colour and alpha times the factor.
 #[must_use]
 pub fn published(factor: f64, light_color: DVec4, surface: DVec4) -> Fragment {
-    if surface.w < ALPHA_CUTOFF { Fragment::Discarded } else { Fragment::Color(factor * light_color * surface) }
+    if surface.w < ALPHA_CUTOFF {
+        Fragment::Discarded
+    } else {
+        Fragment::Color(factor * light_color * surface)
+    }
 }
 
 /// Hardened: the surface keeps its alpha.

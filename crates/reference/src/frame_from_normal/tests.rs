@@ -13,9 +13,27 @@ fn degenerate_axis() -> DVec3 {
 #[test]
 fn known_answers() {
     // N = z: A = (0, −1, 0), T = z × −y = x, B = x × z = −y.
-    assert_eq!(published(DVec3::Z), Tangents { tangent: DVec3::X, bitangent: -DVec3::Y });
-    assert_eq!(hardened(DVec3::Z), Tangents { tangent: DVec3::X, bitangent: DVec3::Y });
-    assert_eq!(hardened(-DVec3::Z), Tangents { tangent: DVec3::X, bitangent: -DVec3::Y });
+    assert_eq!(
+        published(DVec3::Z),
+        Tangents {
+            tangent: DVec3::X,
+            bitangent: -DVec3::Y
+        }
+    );
+    assert_eq!(
+        hardened(DVec3::Z),
+        Tangents {
+            tangent: DVec3::X,
+            bitangent: DVec3::Y
+        }
+    );
+    assert_eq!(
+        hardened(-DVec3::Z),
+        Tangents {
+            tangent: DVec3::X,
+            bitangent: -DVec3::Y
+        }
+    );
 }
 
 #[test]
@@ -23,7 +41,13 @@ fn witness_the_helper_vector_is_parallel_to_one_normal() {
     let axis = degenerate_axis();
     for n in [axis, -axis] {
         // All three components are the same number up to sign, so their products cancel exactly.
-        assert_eq!(published(n), Tangents { tangent: DVec3::ZERO, bitangent: DVec3::ZERO });
+        assert_eq!(
+            published(n),
+            Tangents {
+                tangent: DVec3::ZERO,
+                bitangent: DVec3::ZERO
+            }
+        );
         assert!(orthonormality_error(n, published_unit(n)).is_nan());
         assert!(orthonormality_error(n, hardened(n)) < 1e-15);
     }
@@ -50,12 +74,30 @@ fn witness_the_published_frame_is_left_handed() {
 
 #[test]
 fn hardened_is_orthonormal_everywhere() {
-    let special = [DVec3::X, DVec3::Y, DVec3::Z, degenerate_axis(), DVec3::new(0.6, 0.8, 0.0), DVec3::new(0.6, 0.8, -0.0)];
+    let special = [
+        DVec3::X,
+        DVec3::Y,
+        DVec3::Z,
+        degenerate_axis(),
+        DVec3::new(0.6, 0.8, 0.0),
+        DVec3::new(0.6, 0.8, -0.0),
+    ];
     let near_south = fibonacci(1000).map(|d| DVec3::new(1e-7 * d.x, 1e-7 * d.y, -1.0).normalize());
-    for n in special.into_iter().flat_map(|n| [n, -n]).chain(fibonacci(100_000)).chain(near_south) {
+    for n in special
+        .into_iter()
+        .flat_map(|n| [n, -n])
+        .chain(fibonacci(100_000))
+        .chain(near_south)
+    {
         // n is unit to 2·2^-53, carried on by factors up to 2; some ten roundings of numbers up to 2: below 32·2^-53.
-        assert!(orthonormality_error(n, hardened(n)) < 32.0 * 2f64.powi(-53), "{n}");
-        assert!(orthonormality_error(n, hughes_moller(n)) < 32.0 * 2f64.powi(-53), "{n}");
+        assert!(
+            orthonormality_error(n, hardened(n)) < 32.0 * 2f64.powi(-53),
+            "{n}"
+        );
+        assert!(
+            orthonormality_error(n, hughes_moller(n)) < 32.0 * 2f64.powi(-53),
+            "{n}"
+        );
     }
 }
 
@@ -63,7 +105,10 @@ fn hardened_is_orthonormal_everywhere() {
 fn the_published_form_is_orthogonal_away_from_its_axis() {
     for n in fibonacci(10_000).filter(|n| n.dot(degenerate_axis()).abs() < 0.9) {
         // sin ∠(N, A) is at least 0.3 there: eight roundings of 2^-53 over 0.3, twice for the second product.
-        assert!(orthonormality_error(n, published_unit(n)) < 64.0 * 2f64.powi(-53), "{n}");
+        assert!(
+            orthonormality_error(n, published_unit(n)) < 64.0 * 2f64.powi(-53),
+            "{n}"
+        );
     }
 }
 
@@ -71,23 +116,37 @@ fn the_published_form_is_orthogonal_away_from_its_axis() {
 fn published_f32(n: Vec3) -> Tangents {
     let t = n.cross(Vec3::new(n.y, -n.z, n.x));
     let b = t.cross(n);
-    Tangents { tangent: (t / t.length()).as_dvec3(), bitangent: (b / b.length()).as_dvec3() }
+    Tangents {
+        tangent: (t / t.length()).as_dvec3(),
+        bitangent: (b / b.length()).as_dvec3(),
+    }
 }
 
 /// Frisvad's formula in f32.
 fn frisvad_f32(n: Vec3) -> Tangents {
     if n.z < -0.999_999_9 {
-        return Tangents { tangent: DVec3::NEG_Y, bitangent: DVec3::NEG_X };
+        return Tangents {
+            tangent: DVec3::NEG_Y,
+            bitangent: DVec3::NEG_X,
+        };
     }
     let a = 1.0 / (1.0 + n.z);
     let b = -n.x * n.y * a;
-    let (t, b) = (Vec3::new(1.0 - n.x * n.x * a, b, -n.x), Vec3::new(b, 1.0 - n.y * n.y * a, -n.y));
-    Tangents { tangent: t.as_dvec3(), bitangent: b.as_dvec3() }
+    let (t, b) = (
+        Vec3::new(1.0 - n.x * n.x * a, b, -n.x),
+        Vec3::new(b, 1.0 - n.y * n.y * a, -n.y),
+    );
+    Tangents {
+        tangent: t.as_dvec3(),
+        bitangent: b.as_dvec3(),
+    }
 }
 
 fn worst_f32(frame: fn(Vec3) -> Tangents, around: DVec3, spread: f64) -> f64 {
     let nearby = fibonacci(20_000).map(|d| (around + spread * d).normalize().as_vec3());
-    let errors = nearby.map(|n| orthonormality_error(n.as_dvec3(), frame(n))).filter(|e| !e.is_nan());
+    let errors = nearby
+        .map(|n| orthonormality_error(n.as_dvec3(), frame(n)))
+        .filter(|e| !e.is_nan());
     errors.fold(0.0, f64::max)
 }
 
