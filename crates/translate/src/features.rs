@@ -2,6 +2,7 @@
 //! nothing; where it is used is looked up only for a message.
 
 use naga::proc::TypeResolution;
+use naga::valid::FunctionInfo;
 use naga::{Expression, ImageClass, Interpolation, Scalar, ScalarKind, Span, Statement, TypeInner};
 
 use crate::ir;
@@ -21,6 +22,7 @@ pub(crate) enum Feature {
     CooperativeMatrix,
     Subgroup,
     TextureGather,
+    DepthLoad,
     PerVertex,
     EarlyDepthTest,
     ClipDistances,
@@ -29,7 +31,7 @@ pub(crate) enum Feature {
 }
 
 impl Feature {
-    pub(crate) const ALL: [Self; 16] = [
+    pub(crate) const ALL: [Self; 17] = [
         Self::Float16,
         Self::Float64,
         Self::Int16,
@@ -41,6 +43,7 @@ impl Feature {
         Self::CooperativeMatrix,
         Self::Subgroup,
         Self::TextureGather,
+        Self::DepthLoad,
         Self::PerVertex,
         Self::EarlyDepthTest,
         Self::ClipDistances,
@@ -61,6 +64,7 @@ impl Feature {
             Self::CooperativeMatrix => "cooperative matrices",
             Self::Subgroup => "subgroup operations",
             Self::TextureGather => "textureGather",
+            Self::DepthLoad => "textureLoad from depth textures",
             Self::PerVertex => "per-vertex interpolation",
             Self::EarlyDepthTest => "forced early depth tests",
             Self::ClipDistances => "clip distances",
@@ -104,6 +108,7 @@ impl Feature {
             Self::TextureGather => ir::find_expression(unit, |e| {
                 matches!(e, Expression::ImageSample { gather: Some(_), .. })
             }),
+            Self::DepthLoad => find_depth_load(unit),
             Self::PerVertex => find_input(unit, |binding| {
                 matches!(
                     binding,
@@ -144,6 +149,9 @@ impl Features {
         for (function, info) in ir::functions(unit) {
             for (handle, expression) in function.expressions.iter() {
                 used.add_expression(expression);
+                if is_depth_load(unit, info, expression) {
+                    used.insert(Feature::DepthLoad);
+                }
                 // Types that are not values of their own are in the arena, which has been looked through.
                 if let TypeResolution::Value(inner) = &info[handle].ty {
                     used.add_type(unit, inner);
@@ -255,4 +263,25 @@ fn find_invariant(unit: &Unit) -> Option<Span> {
         .iter()
         .any(|(_, _, b)| *b == naga::Binding::BuiltIn(naga::BuiltIn::Position { invariant: true }))
         .then_some(Span::UNDEFINED)
+}
+
+fn is_depth_load(unit: &Unit, info: &FunctionInfo, expression: &Expression) -> bool {
+    let Expression::ImageLoad { image, .. } = *expression else {
+        return false;
+    };
+    matches!(
+        info[image].ty.inner_with(&unit.module.types),
+        TypeInner::Image {
+            class: ImageClass::Depth { .. },
+            ..
+        }
+    )
+}
+
+fn find_depth_load(unit: &Unit) -> Option<Span> {
+    ir::functions(unit).find_map(|(function, info)| {
+        let mut all = function.expressions.iter();
+        all.find(|(_, expression)| is_depth_load(unit, info, expression))
+            .map(|(handle, _)| function.expressions.get_span(handle))
+    })
 }

@@ -216,6 +216,20 @@ fn gather_is_refused_in_old_glsl() {
 }
 
 #[test]
+fn loads_from_depth_textures_are_refused_in_glsl_only() {
+    let load = fragment(
+        "@group(0) @binding(0) var t: texture_depth_2d;",
+        "vec4f(textureLoad(t, vec2i(i32(x)), 0))",
+    );
+    let options = EmitOptions::default();
+    let error = refused(&load, Target::Glsl, &options);
+    assert_eq!((error.code, error.line), (Code::Unsupported, Some(3)), "{error}");
+    for target in [Target::Spirv, Target::Hlsl, Target::Msl, Target::Wgsl] {
+        emit(&load, target, &options).unwrap_or_else(|e| panic!("{e}"));
+    }
+}
+
+#[test]
 fn external_textures_are_no_panic() {
     let external = fragment(
         "@group(0) @binding(0) var t: texture_external; @group(0) @binding(1) var s: sampler;",

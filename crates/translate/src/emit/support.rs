@@ -82,7 +82,11 @@ fn in_hlsl(feature: Feature, model: ShaderModel) -> Option<String> {
         | Feature::PerVertex
         | Feature::EarlyDepthTest
         | Feature::ClipDistances => Some("HLSL as we emit it".to_owned()),
-        Feature::Float64 | Feature::TextureGather | Feature::Immediates | Feature::InvariantPosition => None,
+        Feature::Float64
+        | Feature::TextureGather
+        | Feature::DepthLoad
+        | Feature::Immediates
+        | Feature::InvariantPosition => None,
     }
 }
 
@@ -107,6 +111,7 @@ fn in_msl(feature: Feature, version: (u8, u8)) -> Option<String> {
         | Feature::SamplerArray
         | Feature::Subgroup
         | Feature::TextureGather
+        | Feature::DepthLoad
         | Feature::ClipDistances
         | Feature::InvariantPosition
         | Feature::Immediates => None,
@@ -124,6 +129,7 @@ fn in_glsl(feature: Feature, version: GlslVersion) -> Option<String> {
         | Feature::RayQuery
         | Feature::CooperativeMatrix
         | Feature::PerVertex => Some("GLSL as we emit it".to_owned()),
+        Feature::DepthLoad => Some("GLSL, whose shadow samplers only compare".to_owned()),
         Feature::TextureGather => matches!(version, GlslVersion::Core330 | GlslVersion::Es300)
             .then(|| format!("GLSL {version} (it comes with 400 and es310)")),
         Feature::EarlyDepthTest => matches!(version, GlslVersion::Core330 | GlslVersion::Es300)
@@ -153,6 +159,7 @@ fn in_wgsl(feature: Feature) -> Option<String> {
         | Feature::ExternalTexture
         | Feature::Subgroup
         | Feature::TextureGather
+        | Feature::DepthLoad
         | Feature::ClipDistances
         | Feature::InvariantPosition => None,
     }
