@@ -97,7 +97,10 @@ fn elevation_has_a_tile_that_is_not_square() {
     let scene = example("elevation.toml");
     let height = scene.materials[0].height.as_ref().expect("heights");
     assert_eq!((height.field.width, height.field.height), (403, 344));
-    assert_eq!(height.elevation.scale.to_array(), [0.84019 / 29.98, 0.84019 / 31.88]);
+    assert_eq!(
+        height.elevation.scale.to_array(),
+        [0.84019 / 29.98, 0.84019 / 31.88]
+    );
     assert_eq!(height.elevation.bias, -height.elevation.scale);
     assert_eq!(kept(only(&plan(&scene))), ["lighting", "normal_map", "relief"]);
 }
