@@ -5,7 +5,7 @@
 
 use std::path::PathBuf;
 
-use crate::{Channel, MAX_DECODED_BYTES, MAX_SIDE};
+use crate::{Channel, CubeFace, MAX_DECODED_BYTES, MAX_SIDE};
 
 /// Every failure of this crate.
 #[derive(Debug, thiserror::Error)]
@@ -113,6 +113,61 @@ pub enum Error {
         path: PathBuf,
         /// How many channels there are.
         channels: u8,
+    },
+    /// An image with too few channels for the code its normals are said to be written in.
+    #[error("{}: the normal codec `{codec}` needs {needed} colour channels; this image has {channels} channel(s)", path.display())]
+    CodecChannels {
+        /// The file.
+        path: PathBuf,
+        /// The codec's name.
+        codec: &'static str,
+        /// How many colour channels it needs.
+        needed: u8,
+        /// How many channels there are.
+        channels: u8,
+    },
+    /// Float samples for a code of integers.
+    #[error("{}: the normal codec `{codec}` needs integer samples of 8 or 16 bits; this image holds floats", path.display())]
+    CodecSamples {
+        /// The file.
+        path: PathBuf,
+        /// The codec's name.
+        codec: &'static str,
+    },
+    /// A cube map of other than six images.
+    #[error("a cube map has six faces, in the order +X, −X, +Y, −Y, +Z, −Z; {found} given")]
+    CubeFaceCount {
+        /// How many were given.
+        found: usize,
+    },
+    /// A cube map's face that is no square.
+    #[error("{}: the {face} face of the cube map is {width}x{height}; faces must be square", path.display())]
+    CubeFaceNotSquare {
+        /// The file.
+        path: PathBuf,
+        /// Which face.
+        face: CubeFace,
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// A cube map's face of another size than the first.
+    #[error(
+        "{}: the {face} face of the cube map is {side}x{side}, but {} is {expected}x{expected}; all six must be of one size",
+        path.display(), first.display()
+    )]
+    CubeFaceSize {
+        /// The file.
+        path: PathBuf,
+        /// Which face.
+        face: CubeFace,
+        /// Its side.
+        side: u32,
+        /// The file of the first face.
+        first: PathBuf,
+        /// The first face's side.
+        expected: u32,
     },
     /// Sizes that do not fit together, in values built by code.
     #[error("{what}: {width}x{height} needs {expected} texels, {found} were given")]

@@ -203,7 +203,8 @@ impl Image {
             .collect()
     }
 
-    fn byte(&self, i: usize) -> u8 {
+    /// Sample `i` as the nearest of the 256 values.
+    pub(crate) fn byte(&self, i: usize) -> u8 {
         match &self.texels {
             Texels::Unorm8(v) => v[i],
             // Round to nearest of v·255/65535 = v/257; ties cannot occur, 257 being odd.

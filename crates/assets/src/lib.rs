@@ -22,8 +22,12 @@
 //! ```
 
 pub mod codec_biased;
+pub mod codec_octahedral;
+pub mod codec_snorm;
+pub mod codec_two_channel;
 pub mod codec_unorm;
 mod color_map;
+mod cube_map;
 mod edge_mode;
 pub mod encode;
 mod error;
@@ -36,16 +40,22 @@ pub mod height_to_normal_forward;
 mod images;
 mod mesh;
 pub mod mips;
+mod normal_encoding;
 mod normal_map;
+pub mod normal_mips;
+pub mod normalisation_cube_map;
 pub mod obj;
 pub mod primitives;
 mod scaled;
 mod truncate;
 
 pub use color_map::{ColorMap, linear_from_srgb, linear_from_srgb_byte, srgb_from_linear};
+pub use cube_map::{CubeFace, CubeMap};
 pub use edge_mode::EdgeMode;
 pub use error::{Error, MeshDefect};
 pub use height_field::{HeightField, height_byte};
 pub use images::{Channel, Image, MAX_DECODED_BYTES, MAX_SIDE, Texels, decode, load_image};
 pub use mesh::Mesh;
+pub use normal_encoding::NormalEncoding;
 pub use normal_map::{NormalCodec, NormalMap};
+pub use normalisation_cube_map::NormalisationCubeMap;

@@ -6,12 +6,13 @@
 //! Sums are in f32 in a fixed order; results do not depend on threads.
 //!
 //! What is averaged: heights as they are; colours in linear light, weighted by alpha so that invisible texels do not bleed;
-//! normals decoded, averaged and renormalised ([`NormalMips::Naive`]: the length that says how rough the surface is, is lost).
+//! normals decoded, averaged and renormalised (see [`normal_mips`](crate::normal_mips)).
 
-use glam::{Vec3, Vec4};
+use glam::Vec4;
 
 use crate::color_map::srgb_from_linear;
-use crate::{ColorMap, HeightField, NormalMap};
+pub use crate::normal_mips::{NormalMips, chain as normal_chain};
+use crate::{ColorMap, HeightField};
 
 /// One level of a chain.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,15 +23,6 @@ pub struct Level {
     pub height: u32,
     /// Four floats a texel.
     pub texels: Vec<Vec4>,
-}
-
-/// How normal maps are filtered.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[non_exhaustive]
-pub enum NormalMips {
-    /// Averaged and renormalised; where the average vanishes, (0, 0, 1).
-    #[default]
-    Naive,
 }
 
 /// The number of levels of a full chain, the base included.
@@ -98,28 +90,6 @@ pub fn color_chain(map: &ColorMap) -> Vec<ColorMap> {
     levels
 }
 
-/// The chain of a normal map; the base level is the map itself, untouched. Alpha is averaged.
-#[must_use]
-pub fn normal_chain(map: &NormalMap, rule: NormalMips) -> Vec<NormalMap> {
-    let decode = |&[r, g, b, a]: &[u8; 4]| {
-        let [x, y, z] = [r, g, b].map(|byte| map.codec.decode(byte));
-        Vec4::new(x, y, z, f32::from(a) / 255.0)
-    };
-    let base = Level {
-        width: map.width,
-        height: map.height,
-        texels: map.texels.iter().map(decode).collect(),
-    };
-    let mut levels: Vec<NormalMap> = chain(base)
-        .iter()
-        .map(|level| encode_normals(level, map, rule))
-        .collect();
-    if let Some(base) = levels.first_mut() {
-        base.texels.clone_from(&map.texels);
-    }
-    levels
-}
-
 fn encode_colors(weighted: &Level, plain: &Level) -> ColorMap {
     let byte = |v: f32| (v * 255.0 + 0.5) as u8;
     let texel = |(w, p): (&Vec4, &Vec4)| {
@@ -136,22 +106,6 @@ fn encode_colors(weighted: &Level, plain: &Level) -> ColorMap {
         width: weighted.width,
         height: weighted.height,
         texels,
-    }
-}
-
-fn encode_normals(level: &Level, map: &NormalMap, rule: NormalMips) -> NormalMap {
-    let texel = |t: &Vec4| {
-        let n = match rule {
-            NormalMips::Naive => t.truncate().try_normalize().unwrap_or(Vec3::Z),
-        };
-        let [r, g, b] = n.to_array().map(|c| map.codec.encode(c));
-        [r, g, b, (t.w * 255.0 + 0.5) as u8]
-    };
-    NormalMap {
-        width: level.width,
-        height: level.height,
-        codec: map.codec,
-        texels: level.texels.iter().map(texel).collect(),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Plane and cube.
+//! Plane, grid and cube.
 
 use glam::{Vec2, Vec3};
 
@@ -16,6 +16,31 @@ pub fn plane(width: f32, height: f32) -> Mesh {
         Vec3::Y * (height * 0.5),
         [Vec3::X, Vec3::Z],
     );
+    mesh
+}
+
+/// The plane of [`plane`], cut into `columns` by `rows` rectangles with shared vertices, row by row from v = 0: fine enough to
+/// have its vertices displaced. Counts of 0 become 1. Corners and edges are those of the plane, to the bit.
+#[must_use]
+pub fn grid(width: f32, height: f32, columns: u32, rows: u32) -> Mesh {
+    let (columns, rows) = (columns.max(1), rows.max(1));
+    let mut mesh = Mesh::default();
+    for j in 0..=rows {
+        for i in 0..=columns {
+            let uv = Vec2::new(i as f32 / columns as f32, j as f32 / rows as f32);
+            let (s, t) = (2.0 * uv.x - 1.0, 2.0 * uv.y - 1.0);
+            mesh.push(Vertex {
+                position: Vec3::X * (width * 0.5) * s + Vec3::Y * (height * 0.5) * t,
+                normal: Vec3::Z,
+                tangent: Vec3::X,
+                uv,
+            });
+        }
+    }
+    let at = |j: u32, i: u32| j * (columns + 1) + i;
+    for (j, i) in (0..rows).flat_map(|j| (0..columns).map(move |i| (j, i))) {
+        mesh.quad([at(j, i), at(j, i + 1), at(j + 1, i + 1), at(j + 1, i)]);
+    }
     mesh
 }
 

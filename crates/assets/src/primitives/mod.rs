@@ -1,4 +1,4 @@
-//! The bodies a scene can name: plane, cube, sphere, torus.
+//! The bodies a scene can name: plane, its grid, cube, sphere, torus.
 //!
 //! All of them: counter-clockwise seen from outside, unit normals outward, tangents along +u with w = +1 (B = cross(N, T)
 //! runs along +v), y up. Since v grows upward and row 0 of an image lies at v = 0, an image shows its first row at the
@@ -11,7 +11,7 @@ mod curved;
 mod flat;
 
 pub use curved::{sphere, torus};
-pub use flat::{cube, plane};
+pub use flat::{cube, grid, plane};
 
 use glam::{Vec2, Vec3};
 
