@@ -8,6 +8,8 @@ use glam::{DVec3, Vec3};
 fn bodies() -> Vec<(&'static str, Mesh)> {
     vec![
         ("plane", primitives::plane(3.0, 2.0)),
+        ("grid", primitives::grid(3.0, 2.0, 7, 5)),
+        ("coarsest grid", primitives::grid(3.0, 2.0, 0, 0)),
         ("cube", primitives::cube(2.0)),
         ("sphere", primitives::sphere(1.5, 24, 12)),
         ("coarsest sphere", primitives::sphere(1.0, 0, 0)),
@@ -19,7 +21,7 @@ fn bodies() -> Vec<(&'static str, Mesh)> {
 /// Where the outward side lies at a vertex: away from the middle of the body next to it.
 fn outward(name: &str, p: Vec3) -> Vec3 {
     match name {
-        "plane" => Vec3::Z,
+        "plane" | "grid" | "coarsest grid" => Vec3::Z,
         "torus" | "coarsest torus" => p - Vec3::new(p.x, 0.0, p.z).normalize() * 2.0,
         _ => p,
     }
@@ -105,6 +107,30 @@ fn sizes_are_as_asked() {
         size(primitives::torus(2.0, 0.5, 24, 12)),
         Vec3::new(5.0, 1.0, 5.0)
     );
+}
+
+#[test]
+fn a_grid_is_its_plane_cut_up() {
+    let grid = primitives::grid(3.0, 2.0, 7, 5);
+    assert_eq!((grid.positions.len(), grid.indices.len()), (8 * 6, 7 * 5 * 6));
+    assert_eq!(grid.bounds(), primitives::plane(3.0, 2.0).bounds());
+    for (p, uv) in grid.positions.iter().zip(&grid.uvs) {
+        // uv and position are both rounded: three roundings of 2⁻²⁴ on numbers up to 3.
+        let place = Vec3::new(uv.x - 0.5, uv.y - 0.5, 0.0) * Vec3::new(3.0, 2.0, 0.0);
+        assert!((*p - place).length() <= 9.0 * 2f32.powi(-24), "{p} {uv}");
+    }
+    // The coarsest is the plane itself, up to the order of its corners.
+    let (plane, coarse) = (primitives::plane(3.0, 2.0), primitives::grid(3.0, 2.0, 1, 1));
+    assert!(plane.positions.iter().all(|p| coarse.positions.contains(p)));
+    // Neighbouring quads share their vertices: every triangle's area is that of half a cell.
+    let area: f32 = grid
+        .triangles()
+        .map(|[a, b, c]| {
+            let [a, b, c] = [a, b, c].map(|i| grid.positions[i]);
+            (b - a).cross(c - a).z / 2.0
+        })
+        .sum();
+    assert!((area - 6.0).abs() <= 70.0 * 6.0 * 2f32.powi(-24), "{area}");
 }
 
 #[test]

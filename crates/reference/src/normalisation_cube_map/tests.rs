@@ -26,6 +26,33 @@ fn known_texels() {
 }
 
 #[test]
+fn the_generated_map_holds_the_same_codes() {
+    use bossage_assets::normalisation_cube_map::{self as generated, NormalisationCubeMap};
+    for (depth, made) in [
+        (Depth::Eight, generated::Depth::Eight),
+        (Depth::Sixteen, generated::Depth::Sixteen),
+    ] {
+        for size in [1, 2, 7, 16] {
+            let (truth, map) = (
+                Map::new(size, depth),
+                NormalisationCubeMap::generate(size, made).unwrap(),
+            );
+            for (face, texels) in map.faces.iter().enumerate() {
+                for i in 0..size * size {
+                    let stored =
+                        DVec3::from_array([0, 1, 2].map(|c| f64::from(texels.sample((4 * i + c) as usize))));
+                    // The sample is an f32 quotient of at most 1: half an ulp, 2^-25. A code is 2^-16 at least.
+                    let off = (stored - truth.texel(face, i % size, i / size))
+                        .abs()
+                        .max_element();
+                    assert!(off <= 2f64.powi(-25), "{depth:?} {size} {face} {i}: {off}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn the_length_of_the_input_does_not_matter() {
     let map = Map::new(32, Depth::Eight);
     for d in fibonacci(500) {
