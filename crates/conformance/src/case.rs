@@ -14,6 +14,11 @@ pub trait Case: Send + Sync {
     /// The oracles that judge it.
     fn basis(&self) -> Vec<&'static str>;
 
+    /// What the command line needs besides its name to run it again.
+    fn arguments(&self) -> Vec<String> {
+        Vec::new()
+    }
+
     /// Runs and judges it.
     fn run(&self, bench: &Bench<'_>) -> Outcome;
 }
@@ -74,6 +79,7 @@ impl Outcome {
             route: bench.route,
             adapter: bench.device.info().name.clone(),
             basis: case.basis(),
+            arguments: case.arguments(),
             inputs: self.inputs,
             outputs: self.comparison.outputs,
             undecided: self.comparison.undecided,

@@ -59,6 +59,7 @@ pub struct Worst {
     /// |got − truth| as a share of the allowed error.
     pub of_bound: Option<f64>,
     /// The item's inputs.
+    #[serde(serialize_with = "numbers")]
     pub input: Vec<f32>,
     /// Which output of the item.
     pub output: usize,
@@ -70,6 +71,13 @@ pub struct Worst {
     pub truth: Number,
     /// The acceptance interval, low and high.
     pub interval: [Number; 2],
+}
+
+/// JSON has no NaN and no infinity, inputs do.
+fn numbers<S: serde::Serializer>(values: &[f32], serializer: S) -> Result<S::Ok, S::Error> {
+    // By way of the shortest decimal, so that 0.1 stays 0.1.
+    let shortest = |x: f32| Number(x.to_string().parse().unwrap_or(f64::from(x)));
+    serializer.collect_seq(values.iter().map(|&x| shortest(x)))
 }
 
 impl fmt::Display for Worst {

@@ -15,6 +15,10 @@ use crate::oracle::Args;
 /// are drawn from the documented domain, where a hardened function leaves nothing open but isolated ties.
 pub const UNDECIDED_LIMIT: f64 = 0.01;
 
+/// The same for pixels whose textures the driver filters: an alpha test near its cutoff is undecided within the filter's
+/// allowance, which is much wider than rounding, so more pixels may be.
+pub const UNDECIDED_LIMIT_FILTERED: f64 = 0.05;
+
 /// Bits that a sampler keeps of a filter weight: what Vulkan's `subTexelPrecisionBits` is on the software drivers, and the
 /// least that Direct3D allows.
 pub const SUBTEXEL_BITS: i32 = 8;

@@ -80,6 +80,19 @@ pub fn frame_from_normal(n: DVec3) -> Tangents {
     }
 }
 
+/// The normals of a mesh as published: the triangles' unit normals, summed per vertex and made unit. NaN where a triangle
+/// without area takes part.
+#[must_use]
+pub fn summed_normals(positions: &[DVec3], indices: &[u32]) -> Vec<DVec3> {
+    let mut sums = vec![DVec3::ZERO; positions.len()];
+    for corners in indices.chunks_exact(3) {
+        let [a, b, c] = [corners[0] as usize, corners[1] as usize, corners[2] as usize];
+        let normal = normalize((positions[b] - positions[a]).cross(positions[c] - positions[a]));
+        [a, b, c].into_iter().for_each(|i| sums[i] += normal);
+    }
+    sums.into_iter().map(normalize).collect()
+}
+
 /// The tangents of a whole mesh as published.
 #[must_use]
 pub fn published(mesh: &Triangles<'_>) -> Vec<DVec4> {

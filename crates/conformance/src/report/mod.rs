@@ -30,6 +30,8 @@ pub struct CaseResult {
     pub adapter: String,
     /// The oracles that judged it.
     pub basis: Vec<&'static str>,
+    /// What the command line needs besides the name to run it again.
+    pub arguments: Vec<String>,
     /// Inputs (items, texels, vertices or pixels).
     pub inputs: usize,
     /// Outputs compared.
@@ -53,8 +55,11 @@ impl CaseResult {
     #[must_use]
     pub fn rerun(&self) -> String {
         let quoted = |text: &str| format!("'{}'", text.replace('\'', "'\\''"));
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./".contains(c);
+        let as_needed = |text: &String| if text.chars().all(plain) { text.clone() } else { quoted(text) };
         let (id, adapter) = (quoted(&self.id.to_string()), quoted(&self.adapter));
-        format!("bossage conform {id} --route {} --adapter {adapter}", self.route)
+        let besides: String = self.arguments.iter().map(|argument| format!(" {}", as_needed(argument))).collect();
+        format!("bossage conform {id} --route {} --adapter {adapter}{besides}", self.route)
     }
 
     /// The share of outputs on which nothing or two things are allowed.

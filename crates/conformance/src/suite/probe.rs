@@ -122,6 +122,11 @@ impl Case for ProbeCase {
         known.into_iter().chain(oracle::BASIS).collect()
     }
 
+    fn arguments(&self) -> Vec<String> {
+        let full = matches!(self.generator, Generator::Random { count: FULL, .. });
+        full.then(|| "--full".to_owned()).into_iter().collect()
+    }
+
     fn run(&self, bench: &Bench<'_>) -> Outcome {
         let make = || {
             let inputs = self.inputs();

@@ -1,0 +1,185 @@
+//! Renders one object and gathers what each of its pixels got, should have got, and from which interpolants.
+
+use bossage_assets::EdgeMode;
+use bossage_reference::surface::{Fragment as Truth, shade};
+use bossage_runner::{
+    AddressMode, Clear, Cull, Draw as RunnerDraw, Mesh, Picture, RenderJob, Resources, SamplerSettings, TextureData,
+    is_unwritten,
+};
+use bossage_scene::{Draw, Texels, Texture};
+use bossage_shaders::{Alpha, FeatureSet, Stage};
+use rayon::prelude::*;
+
+use super::surface::{Maps, bounded, material};
+use crate::bench::Bench;
+use crate::case::with_causes;
+use crate::tolerance::surface::{Fragment, Interpolants};
+
+/// The longer side of the rendered picture, in pixels: some thousands of pixels an object, from every angle that it has.
+const LONGER_SIDE: u32 = 96;
+
+/// The captured targets after the colour: position, normal, tangent, uv.
+const CAPTURED: usize = 4;
+
+/// One pixel of one object.
+#[derive(Clone, Debug)]
+pub(super) struct Pixel {
+    /// x and y, and then the interpolants: what a report shows as the input.
+    pub(super) place: Vec<f32>,
+    /// The colour; `None` where the shader under test wrote nothing.
+    pub(super) got: Option<[f32; 4]>,
+    /// The reference's colour; `None` where it discards.
+    pub(super) truth: Option<[f64; 4]>,
+    /// What is allowed.
+    pub(super) bound: Fragment,
+}
+
+/// Renders the object with the draw's shaders, and once more with the capture variant.
+pub(super) fn render(bench: &Bench<'_>, draw: &Draw, size: [u32; 2]) -> Result<Vec<Pixel>, String> {
+    let size = scaled(size);
+    let picture = picture(bench, draw, &draw.features, Stage::Fragment, size, 1)?;
+    // Without the alpha test, so that pixels that should be cut out are known too.
+    let uncut = FeatureSet { alpha: Alpha::Opaque, ..draw.features };
+    let capture = picture_of(bench, draw, &uncut, size)?;
+    let got = picture.into_iter().next().ok_or("the draw has no picture")?;
+    let covered = capture[0].covered();
+    let context = Context::new(draw);
+    let pixels = (0..got.pixels.len()).into_par_iter().filter(|at| covered[*at]);
+    Ok(pixels.map(|at| context.pixel(at, size, got.pixels[at], &capture)).collect())
+}
+
+/// The size with the same aspect whose longer side is [`LONGER_SIDE`].
+fn scaled([width, height]: [u32; 2]) -> [u32; 2] {
+    let longer = width.max(height).max(1);
+    [width, height].map(|side| (side * LONGER_SIDE).div_ceil(longer).max(1))
+}
+
+fn picture_of(bench: &Bench<'_>, draw: &Draw, features: &FeatureSet, size: [u32; 2]) -> Result<Vec<Picture>, String> {
+    picture(bench, draw, features, Stage::FragmentCapture, size, 1 + CAPTURED)
+}
+
+fn picture(
+    bench: &Bench<'_>,
+    draw: &Draw,
+    features: &FeatureSet,
+    stage: Stage,
+    [width, height]: [u32; 2],
+    targets: usize,
+) -> Result<Vec<Picture>, String> {
+    let key = |stage: Stage| format!("{stage:?} {features:?}");
+    let vertex = bench.module(&key(Stage::Vertex), |library| library.assemble_surface(features, Stage::Vertex))?;
+    let fragment = bench.module(&key(stage), |library| library.assemble_surface(features, stage))?;
+    let (mesh, textures) = (mesh(draw), textures(draw));
+    let mut resources = Resources { uniforms: draw.uniforms.clone(), ..Resources::default() };
+    let (vertex, fragment) = (vertex.shader("surface_vertex")?, fragment.shader("surface_fragment")?);
+    for (name, texture) in textures.iter().filter(|(name, _)| fragment.binding(name).is_some()) {
+        resources.textures.insert(name.clone(), texture);
+    }
+    if fragment.binding("surface_sampler").is_some() {
+        let settings = SamplerSettings { address: address(draw.edge), ..SamplerSettings::default() };
+        resources.samplers.insert("surface_sampler".to_owned(), settings);
+    }
+    let runner_draw = RunnerDraw {
+        vertex,
+        fragment,
+        mesh: &mesh,
+        resources,
+        cull: Cull::None,
+        blend: Default::default(),
+        depth: Default::default(),
+    };
+    let targets = vec![Clear::Sentinel; targets];
+    let job = RenderJob { name: &draw.object, width, height, targets, read_depth: false, draws: vec![runner_draw] };
+    Ok(job.run(bench.device).map_err(|error| with_causes(&error))?.targets)
+}
+
+fn address(edge: EdgeMode) -> AddressMode {
+    match edge {
+        EdgeMode::Wrap => AddressMode::Wrap,
+        EdgeMode::Mirror => AddressMode::Mirror,
+        EdgeMode::Clamp => AddressMode::Clamp,
+    }
+}
+
+fn mesh(draw: &Draw) -> Mesh {
+    let mesh = &draw.mesh;
+    let three = |vectors: &[glam::Vec3]| vectors.iter().map(|v| v.to_array()).collect::<Vec<_>>();
+    let uvs: Vec<[f32; 2]> = mesh.uvs.iter().map(|uv| uv.to_array()).collect();
+    let tangents: Vec<[f32; 4]> = mesh.tangents.iter().map(|t| t.to_array()).collect();
+    Mesh::new(mesh.indices.clone())
+        .with("position", &three(&mesh.positions))
+        .with("normal", &three(&mesh.normals))
+        .with("uv", &uvs)
+        .with("tangent", &tangents)
+}
+
+/// The first level of each texture.
+fn textures(draw: &Draw) -> Vec<(String, TextureData)> {
+    draw.textures.iter().filter_map(|(name, texture)| Some((name.clone(), texture_data(texture)?))).collect()
+}
+
+fn texture_data(texture: &Texture) -> Option<TextureData> {
+    let level = texture.levels.first()?;
+    Some(match &level.texels {
+        Texels::Rgba8Unorm(texels) => TextureData::rgba8(level.width, level.height, texels),
+        Texels::Rgba32Float(texels) => TextureData::rgba32f(level.width, level.height, texels),
+        Texels::R32Float(texels) => TextureData::r32f(level.width, level.height, texels),
+    })
+}
+
+/// What is the same for all pixels of a draw.
+struct Context<'a> {
+    draw: &'a Draw,
+    maps: Maps,
+    reference: bossage_reference::surface::Material,
+}
+
+impl<'a> Context<'a> {
+    fn new(draw: &'a Draw) -> Self {
+        let maps = Maps::new(draw);
+        let reference = material(draw, &maps);
+        Self { draw, maps, reference }
+    }
+
+    fn pixel(&self, at: usize, [width, _]: [u32; 2], got: [f32; 4], capture: &[Picture]) -> Pixel {
+        let read = |target: usize| capture[target].pixels[at].map(|x| if is_unwritten(x) { 0.0 } else { x });
+        let three = |[x, y, z, _]: [f32; 4]| [x, y, z];
+        let [u, v, ..] = read(4);
+        let interpolants =
+            Interpolants { position: three(read(1)), normal: three(read(2)), tangent: read(3), uv: [u, v] };
+        let (x, y) = (at as u32 % width, at as u32 / width);
+        let place = [
+            &[x as f32, y as f32],
+            interpolants.position.as_slice(),
+            &interpolants.normal,
+            &interpolants.tangent,
+            &interpolants.uv,
+        ];
+        Pixel {
+            place: place.concat(),
+            got: (!got.iter().copied().all(is_unwritten)).then_some(got),
+            truth: self.truth(&interpolants),
+            bound: bounded(self.draw, &self.maps).fragment(&interpolants),
+        }
+    }
+
+    fn truth(&self, at: &Interpolants) -> Option<[f64; 4]> {
+        let (eye, lights, form) = super::surface::view(self.draw);
+        match shade(&self.reference, &lights, eye, &super::surface::doubles(at), form) {
+            Truth::Color(color) => Some(color.to_array()),
+            Truth::Discarded => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::scaled;
+
+    #[test]
+    fn scaling_keeps_the_aspect() {
+        assert_eq!(scaled([800, 600]), [96, 72]);
+        assert_eq!(scaled([600, 1200]), [48, 96]);
+        assert_eq!(scaled([1, 10_000]), [1, 96]);
+    }
+}

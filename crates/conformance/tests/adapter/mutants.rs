@@ -1,0 +1,183 @@
+//! Negative controls: a library with one fault put into it must fail, and exactly the faults below are put into it.
+
+use std::path::{Path, PathBuf};
+
+use bossage_conformance::{Route, Selection};
+use bossage_shaders::Library;
+
+use crate::support::{report, root};
+
+/// One fault: in `file`, `from` becomes `to`; the cases of `filter` must notice.
+struct Mutant {
+    what: &'static str,
+    file: &'static str,
+    from: &'static str,
+    to: &'static str,
+    filter: &'static str,
+}
+
+const MUTANTS: &[Mutant] = &[
+    Mutant {
+        what: "the tangent frame transposed",
+        file: "techniques/light_to_tangent.wesl",
+        from: "return vec3f(dot(tangent, light), dot(bitangent_dir, light), dot(normal, light));",
+        to: "return mat3x3f(tangent, bitangent_dir, normal) * light;",
+        filter: "light_to_tangent",
+    },
+    Mutant {
+        what: "T and B in the wrong order",
+        file: "techniques/light_to_tangent.wesl",
+        from: "return vec3f(dot(tangent, light), dot(bitangent_dir, light), dot(normal, light));",
+        to: "return vec3f(dot(bitangent_dir, light), dot(tangent, light), dot(normal, light));",
+        filter: "light_to_tangent",
+    },
+    Mutant {
+        what: "the bitangent the wrong way round",
+        file: "lib/frame.wesl",
+        from: "cross(normal, tangent.xyz)",
+        to: "cross(tangent.xyz, normal)",
+        filter: "frame_mikktspace",
+    },
+    Mutant {
+        what: "a normalise dropped",
+        file: "lib/normalise.wesl",
+        from: "return scaled / sqrt(dot(scaled, scaled));",
+        to: "return scaled;",
+        filter: "dot3/hardened",
+    },
+    Mutant {
+        what: "components swapped",
+        file: "techniques/height_to_normal.wesl",
+        from: "return vec3f(-gx * r, -gy * r, r);",
+        to: "return vec3f(-gy * r, -gx * r, r);",
+        filter: "height_to_normal/random",
+    },
+    Mutant {
+        what: "a constant off by one per cent",
+        file: "techniques/parallax_offset.wesl",
+        from: "const MIN_VIEW_Z: f32 = 0.05;",
+        to: "const MIN_VIEW_Z: f32 = 0.0505;",
+        filter: "parallax_offset/hardened",
+    },
+    Mutant {
+        what: "an exponent off by one per cent",
+        file: "techniques/blinn_phong.wesl",
+        from: "return pow(base, max(shininess, 0.0));",
+        to: "return pow(base, 1.01 * max(shininess, 0.0));",
+        filter: "blinn_phong/hardened",
+    },
+    Mutant {
+        what: "a clamp dropped",
+        file: "lib/lambert.wesl",
+        from: "return saturate(dot(normal, light_dir));",
+        to: "return dot(normal, light_dir);",
+        filter: "dot3/hardened",
+    },
+    Mutant {
+        what: "a bias dropped",
+        file: "lib/relief.wesl",
+        from: "return height_scale * height + height_bias;",
+        to: "return height_scale * height;",
+        filter: "relief",
+    },
+    Mutant {
+        what: "the mirror edge without its repeated texel",
+        file: "lib/edge.wesl",
+        from: "min(k, 2 * n - 1 - k)",
+        to: "min(k, 2 * n - 2 - k)",
+        filter: "edge/edge",
+    },
+    Mutant {
+        what: "rounding replaced by truncation",
+        file: "techniques/codec_biased.wesl",
+        from: "* 127.0 + 128.5);",
+        to: "* 127.0 + 128.0);",
+        filter: "codec_biased/hardened",
+    },
+    Mutant {
+        what: "the last column of a bake not written",
+        file: "entry/height_to_normal.wesl",
+        from: "if (any(id.xy >= size)) {",
+        to: "if (any(id.xy + vec2u(1u, 0u) >= size)) {",
+        filter: "height_to_normal/bake",
+    },
+    Mutant {
+        what: "a vertex' first triangle left out",
+        file: "entry/frame_from_uv.wesl",
+        from: "var entry = adjacency_offsets[vertex];",
+        to: "var entry = adjacency_offsets[vertex] + 1u;",
+        filter: "frame_from_uv/hardened/mesh",
+    },
+    Mutant {
+        what: "a published defect cured",
+        file: "techniques/parallax_offset.wesl",
+        from: "return uv + z * view_dir_ts.xy / view_dir_ts.z;",
+        to: "return uv + z * view_dir_ts.xy / max(view_dir_ts.z, MIN_VIEW_Z);",
+        filter: "parallax_offset/published/defect",
+    },
+    Mutant {
+        what: "the surface's ambient light off by one per cent",
+        file: "entry/surface_fragment.wesl",
+        from: "var color = material.ambient.rgb * albedo.rgb;",
+        to: "var color = 1.01 * material.ambient.rgb * albedo.rgb;",
+        filter: "scene/planned",
+    },
+    Mutant {
+        what: "the surface's normal map not decoded",
+        file: "entry/surface_fragment.wesl",
+        from: "normal_texel * material.normal_decode.x + material.normal_decode.y;",
+        to: "normal_texel * material.normal_decode.x;",
+        filter: "scene/planned",
+    },
+    Mutant {
+        what: "the surface's relief turned round",
+        file: "entry/surface_fragment.wesl",
+        from: "let z = elevation(height,",
+        to: "let z = -elevation(height,",
+        filter: "scene/planned",
+    },
+];
+
+fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(to)?;
+    for entry in std::fs::read_dir(from)? {
+        let entry = entry?;
+        let target = to.join(entry.file_name());
+        if entry.file_type()?.is_dir() { copy(&entry.path(), &target)? } else { std::fs::copy(entry.path(), target).map(drop)? }
+    }
+    Ok(())
+}
+
+fn selection(filter: &str) -> Selection {
+    let scenes: Vec<PathBuf> = ["brick_wall.toml"].map(|scene| root().join("examples").join(scene)).to_vec();
+    Selection { filter: Some(filter.to_owned()), routes: vec![Route::Wgsl], scenes, ..Selection::default() }
+}
+
+#[test]
+fn every_fault_is_caught() {
+    let mut missed = Vec::new();
+    for mutant in MUTANTS {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        copy(&root().join("shaders"), folder.path()).expect("the shaders can be copied");
+        let file = folder.path().join(mutant.file);
+        let text = std::fs::read_to_string(&file).expect("the mutant's file is there");
+        assert!(text.contains(mutant.from), "{}: `{}` is not in {}", mutant.what, mutant.from, mutant.file);
+        std::fs::write(&file, text.replace(mutant.from, mutant.to)).expect("the copy can be written");
+        let library = Library::from_dir(folder.path()).expect("the mutant is a whole library");
+        let Some(report) = report(mutant.what, &selection(mutant.filter), &library) else { return };
+        if report.failures().next().is_none() {
+            missed.push(mutant.what);
+        }
+    }
+    assert!(missed.is_empty(), "not caught: {missed:?}");
+}
+
+#[test]
+fn the_same_cases_pass_without_a_fault() {
+    let library = Library::from_dir(&root().join("shaders")).expect("the library is whole");
+    for mutant in MUTANTS {
+        let Some(report) = report(mutant.what, &selection(mutant.filter), &library) else { return };
+        let failed: Vec<String> = report.failures().map(|case| format!("{}: {:?}", case.id, case.reason)).collect();
+        assert!(failed.is_empty(), "{}: {failed:?}", mutant.what);
+    }
+}
