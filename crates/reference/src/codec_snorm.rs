@@ -1,6 +1,6 @@
 //! `codec_snorm`: a normal's component as a signed normalised integer, n = max(c / (2^(b−1) − 1), −1), for b = 8 and 16.
 //!
-//! Source: the fixed-point conversions of the graphics interfaces (Vulkan 3.9.1, D3D11 3.2.3.3, WebGPU's `snorm` formats).
+//! Source: the fixed-point conversions of the graphics interfaces (Vulkan, D3D11, WebGPU's `snorm` formats).
 //! Range: n in [−1, 1]; c in [−128, 127] or [−32768, 32767].
 //!
 //! Zero, one and minus one are exact. The lowest integer has no value of its own: it also means −1, and is never written.

@@ -1,6 +1,6 @@
 //! Cube maps in float64: which texel of which face a direction meets, and bilinear filtering.
 //!
-//! Source: the cube map tables of the graphics interfaces (Vulkan 16.5.4, D3D, OpenGL 8.13), the same in all of them. Faces in
+//! Source: the cube map tables of the graphics interfaces (Vulkan, D3D, OpenGL, WebGPU), the same in all of them. Faces in
 //! the order +X, −X, +Y, −Y, +Z, −Z; on each face s runs along the columns and t along the rows:
 //!
 //! | face | s grows along | t grows along |

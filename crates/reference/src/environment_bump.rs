@@ -4,8 +4,8 @@
 //! shading languages' `reflect(−V, N)`. Spaces: N and V in the cube map's space (world); V unit, from the surface to the eye.
 //!
 //! Known fault of using N as it comes from the map: the formula mirrors only for unit N. A filtered N of length r gives
-//! 2r² (N̂·V) N̂ − V: for r² < ½ a reflection **into** the surface. Hardened: unit N; the zero vector reflects straight back
-//! along −V's opposite, that is R = −V, the view going on through the surface.
+//! 2r² (N̂·V) N̂ − V: for r² < ½ a reflection **into** the surface. Hardened: unit N; for the zero
+//! vector R = −V, the view going on through the surface.
 
 use glam::{DVec3, DVec4};
 
