@@ -3,7 +3,7 @@
 //! Sums and products are correctly rounded in either direction, which is exactly `[round_down, round_up]` of the exact bounds. A
 //! fused multiply-add rounds once, which lies between the twice-rounded bounds, so fusion needs no case of its own.
 
-use super::rules::{DIVIDE_ULPS, finish, within_ulps};
+use super::rules::{DIVIDE_ULPS, finish, within_ulps, within_ulps_of};
 use super::{Flags, Interval};
 use crate::width::{Width, exp2i, two_sum};
 
@@ -126,7 +126,9 @@ pub(crate) fn divide<const ABSORB: bool>(w: Width, a: Interval, b: Interval) -> 
     }
     let lo = q[0].min(q[1]).min(q[2].min(q[3]));
     let hi = q[0].max(q[1]).max(q[2].max(q[3]));
-    let result = within_ulps::<ABSORB>(w, lo, hi, DIVIDE_ULPS).flagged(flags);
+    let exact = lo == hi && lo.mul_add(-b.lo, a.lo) == 0.0;
+    let result = if exact { within_ulps_of::<ABSORB>(w, lo, DIVIDE_ULPS) } else { within_ulps::<ABSORB>(w, lo, hi, DIVIDE_ULPS) };
+    let result = result.flagged(flags);
     // A large divisor may be handled through its reciprocal, which may flush to zero.
     if outside { result.hull(Interval::point(0.0)) } else { result }
 }

@@ -178,8 +178,11 @@ pub(crate) fn sqrt<const A: bool>(w: Width, a: Interval) -> Interval {
         Ok(flags) => flags,
         Err(unknown) => return unknown,
     };
-    if a.lo < 0.0 && a.lo <= -w.min_normal() {
+    if a.lo < 0.0 {
         return unbounded::<A>(Flags::NAN).flagged(flags);
+    }
+    if a.hi == 0.0 {
+        return Interval::point(0.0).flagged(flags);
     }
     let least = w.min_normal();
     if a.hi < least {

@@ -57,12 +57,18 @@ pub(crate) const TANH_ERROR: f64 = 1.0e-5;
 /// What our own `f64` evaluation of a function may be off by: the platform's library promises less than one unit, two are taken.
 #[inline(always)]
 fn slop(x: f64) -> f64 {
-    if x.is_finite() { x.abs() * (4.0 * f64::EPSILON) + f64::MIN_POSITIVE * f64::EPSILON } else { 0.0 }
+    if x == 0.0 || !x.is_finite() { 0.0 } else { x.abs() * (4.0 * f64::EPSILON) + f64::MIN_POSITIVE * f64::EPSILON }
 }
 
 /// All values within `ulps` units in the last place of a real number in `[lo, hi]`, rounded outward.
 pub(crate) fn within_ulps<const ABSORB: bool>(w: Width, lo: f64, hi: f64, ulps: f64) -> Interval {
-    outward::<ABSORB>(w, lower_by_ulps(w, lo, hi, ulps), -lower_by_ulps(w, -hi, -lo, ulps))
+    let (below, above) = (lower_by_ulps(w, lo, hi, ulps), -lower_by_ulps(w, -hi, -lo, ulps));
+    outward::<ABSORB>(w, below - slop(below), above + slop(above))
+}
+
+/// As [`within_ulps`], of one number that is known exactly.
+pub(crate) fn within_ulps_of<const ABSORB: bool>(w: Width, x: f64, ulps: f64) -> Interval {
+    outward::<ABSORB>(w, lower_by_ulps(w, x, x, ulps), -lower_by_ulps(w, -x, -x, ulps))
 }
 
 /// The least of `v − ulps·ulp(v)` over `v` in `[lo, hi]`.
@@ -72,7 +78,7 @@ fn lower_by_ulps(w: Width, lo: f64, hi: f64, ulps: f64) -> f64 {
     if lo == 0.0 {
         return 0.0;
     }
-    let at_lo = lo - ulps * w.ulp(lo) - slop(lo);
+    let at_lo = lo - ulps * w.ulp(lo);
     if lo < 0.0 || !lo.is_finite() {
         return at_lo;
     }

@@ -1,9 +1,9 @@
 //! Float arithmetic of the point domains, bit for bit, and of the acceptance intervals, by containment.
 
-mod common;
+
 
 use bossage_bounds::{Accept, F32, F64};
-use common::probe;
+use crate::common::probe;
 use proptest::prelude::*;
 
 fn bits(list: &[f64]) -> Vec<u32> {

@@ -1,11 +1,11 @@
 //! Parsing and running WGSL in tests.
-#![allow(dead_code, reason = "each test binary uses a part")]
+
 
 use bossage_bounds::{Bindings, Domain, Limits, Outcome, Program, run_compute};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 /// Parses and validates a module; panics with the compiler's message otherwise.
-pub fn module(source: &str) -> (naga::Module, ModuleInfo) {
+pub(crate) fn module(source: &str) -> (naga::Module, ModuleInfo) {
     let module = naga::front::wgsl::parse_str(source).unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
     let info = Validator::new(ValidationFlags::all(), Capabilities::all())
         .validate(&module)
@@ -14,13 +14,13 @@ pub fn module(source: &str) -> (naga::Module, ModuleInfo) {
 }
 
 /// Compiles the entry point `main`.
-pub fn program(source: &str) -> Program {
+pub(crate) fn program(source: &str) -> Program {
     let (module, info) = module(source);
     Program::new(&module, &info, "main").unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// A compute shader with the given body for one invocation `i`; inputs `a: array<f32>`, outputs `o: array<f32>`.
-pub fn probe_source(body: &str) -> String {
+pub(crate) fn probe_source(body: &str) -> String {
     format!(
         "@group(0) @binding(0) var<storage, read> a: array<f32>;
          @group(0) @binding(1) var<storage, read_write> o: array<f32>;
@@ -33,19 +33,25 @@ pub fn probe_source(body: &str) -> String {
 }
 
 /// Runs such a probe, one output for each invocation.
-pub fn probe<D: Domain>(body: &str, inputs: &[f32], outputs: usize) -> Vec<D::Float> {
+pub(crate) fn probe<D: Domain>(body: &str, inputs: &[f32], outputs: usize) -> Vec<D::Float> {
     let program = program(&probe_source(body));
     bossage_bounds::run_probe::<D>(&program, inputs, outputs, outputs, &Limits::default()).unwrap_or_else(|e| panic!("{e}")).0
 }
 
 /// Dispatches one workgroup.
-pub fn dispatch<D: Domain>(source: &str, bindings: Bindings<D>) -> (Bindings<D>, Outcome) {
+pub(crate) fn dispatch<D: Domain>(source: &str, bindings: Bindings<D>) -> (Bindings<D>, Outcome) {
     dispatch_many(source, bindings, [1, 1, 1])
 }
 
 /// Dispatches workgroups.
-pub fn dispatch_many<D: Domain>(source: &str, mut bindings: Bindings<D>, groups: [u32; 3]) -> (Bindings<D>, Outcome) {
+pub(crate) fn dispatch_many<D: Domain>(source: &str, mut bindings: Bindings<D>, groups: [u32; 3]) -> (Bindings<D>, Outcome) {
     let program = program(source);
     let outcome = run_compute(&program, &mut bindings, groups, &Limits::default()).unwrap_or_else(|e| panic!("{e}"));
     (bindings, outcome)
+}
+
+/// The text of a corpus file.
+pub(crate) fn source(name: &str) -> String {
+    let path = format!("{}/tests/corpus/{name}.wgsl", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
 }

@@ -1,0 +1,12 @@
+//! Tests of the evaluator through its public interface.
+
+mod accept;
+mod arithmetic;
+mod common;
+mod corpus;
+mod coverage;
+mod flow;
+mod generated;
+mod limits;
+mod math;
+mod textures;
