@@ -81,6 +81,15 @@ mod tests {
     }
 
     #[test]
+    fn hardened_clamps_the_occlusion_and_the_factor_by_themselves() {
+        // On the lit side the factor's clamp does not act: only the occlusion's does, at 0 and at 1.
+        assert_eq!(factor_hardened(-0.6, 0.5, DVec3::Z, DVec3::Z), 0.75);
+        assert_eq!(factor_hardened(2.0, 0.5, DVec3::Z, DVec3::Z), 1.125);
+        // A light vector that is too long: only the factor's.
+        assert_eq!(factor_hardened(1.0, 0.0, DVec3::Z, -3.0 * DVec3::Z), 0.0);
+    }
+
+    #[test]
     fn witness_light_makes_an_opaque_surface_transparent() {
         let opaque = DVec4::new(1.0, 0.5, 0.25, 1.0);
         let dark = factor_published(1.0, 0.0, DVec3::Z, -DVec3::Z);
