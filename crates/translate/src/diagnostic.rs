@@ -4,7 +4,7 @@
 //! hand then; errors are rare, so the cost does not matter.
 
 use std::fmt;
-use std::ops::Range;
+use std::ops::{Deref, DerefMut, Range};
 
 use codespan_reporting::diagnostic::{Diagnostic as Report, Label as ReportLabel};
 use codespan_reporting::files::SimpleFile;
@@ -64,9 +64,14 @@ pub struct Label {
     pub message: String,
 }
 
-/// A message with its place.
+/// A message with its place. Its parts are those of [`Details`], which it dereferences to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Diagnostic {
+#[serde(transparent)]
+pub struct Diagnostic(Box<Details>);
+
+/// The parts of a [`Diagnostic`], behind a pointer so that a `Result` that holds one stays small.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Details {
     /// The kind of mistake.
     pub code: Code,
     /// What is wrong, in one sentence.
@@ -87,11 +92,25 @@ pub struct Diagnostic {
     pub snippet: String,
 }
 
+impl Deref for Diagnostic {
+    type Target = Details;
+
+    fn deref(&self) -> &Details {
+        &self.0
+    }
+}
+
+impl DerefMut for Diagnostic {
+    fn deref_mut(&mut self) -> &mut Details {
+        &mut self.0
+    }
+}
+
 impl Diagnostic {
     /// A message without a place.
     #[must_use]
     pub fn new(code: Code, message: impl Into<String>) -> Self {
-        Self {
+        Self(Box::new(Details {
             code,
             message: message.into(),
             file: String::new(),
@@ -101,7 +120,7 @@ impl Diagnostic {
             notes: Vec::new(),
             hint: None,
             snippet: String::new(),
-        }
+        }))
     }
 
     /// Adds what to do.
@@ -121,7 +140,7 @@ impl Diagnostic {
     /// Names the file, where there is no place in it to show.
     #[must_use]
     pub fn in_file(mut self, file: &str) -> Self {
-        file.clone_into(&mut self.file);
+        self.file = file.to_owned();
         self
     }
 
@@ -133,14 +152,14 @@ impl Diagnostic {
         text: &str,
         places: impl IntoIterator<Item = (Range<usize>, String)>,
     ) -> Self {
-        file.clone_into(&mut self.file);
+        self.file = file.to_owned();
         self.labels = places
             .into_iter()
             .filter_map(|(range, message)| label(text, range, message))
             .collect();
-        if let Some(first) = self.labels.first() {
-            self.line = Some(first.line);
-            self.column = Some(first.column);
+        self.line = self.labels.first().map(|first| first.line);
+        self.column = self.labels.first().map(|first| first.column);
+        if !self.labels.is_empty() {
             self.snippet = snippet(file, text, &self.labels);
         }
         self

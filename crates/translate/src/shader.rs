@@ -18,6 +18,7 @@ use crate::front;
 use crate::guard::guard;
 use crate::manifest::OverrideValue;
 use crate::overrides;
+use crate::resources::{Resource, resources};
 use crate::source::{Language, Source};
 use crate::target::Stage;
 
@@ -41,6 +42,7 @@ pub struct Shader {
 pub(crate) struct Unit {
     pub(crate) stage: Stage,
     pub(crate) features: Features,
+    pub(crate) resources: Vec<Resource>,
     pub(crate) module: Module,
     pub(crate) info: ModuleInfo,
 }
@@ -234,9 +236,11 @@ pub(crate) fn unit(module: Module, info: ModuleInfo) -> Result<Unit, Diagnostic>
     let mut unit = Unit {
         stage,
         features: Features::default(),
+        resources: Vec::new(),
         module,
         info,
     };
     unit.features = Features::of(&unit);
+    unit.resources = resources(&unit);
     Ok(unit)
 }

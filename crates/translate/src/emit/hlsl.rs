@@ -127,7 +127,7 @@ fn rewrite(job: &Job<'_>, registers: &Registers, raw: String) -> Result<String, 
 
 /// Reads names and registers back from the text, so that the manifest states what is there.
 fn place(job: &Job<'_>, registers: &Registers, text: &str) -> Result<Placement, Diagnostic> {
-    let declared: BTreeMap<&str, &str> = text.lines().filter_map(declaration).collect();
+    let declared: BTreeMap<&str, &str> = declarations(text).collect();
     let slot = |register: &Register| {
         let name = declared.get(register.to_string().as_str()).ok_or_else(|| {
             let message = format!("HLSL: nothing is declared at register({register})");
@@ -150,18 +150,20 @@ fn place(job: &Job<'_>, registers: &Registers, text: &str) -> Result<Placement, 
     Ok(placement)
 }
 
-/// Register and name of a declaration: what stands in the parentheses, and the last word before the colon.
-fn declaration(line: &str) -> Option<(&str, &str)> {
-    let (before, rest) = line.split_once(": register(")?;
-    let (register, _) = rest.split_once(')')?;
-    let name = before.split_whitespace().next_back()?;
-    let name = name.split_once('[').map_or(name, |(name, _)| name);
-    Some((register, name))
+/// Register and name of each declaration: what stands in the parentheses, and the last word before the colon.
+fn declarations(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    const MARK: &str = ": register(";
+    text.match_indices(MARK).filter_map(|(at, _)| {
+        let (register, _) = text[at + MARK.len()..].split_once(')')?;
+        let name = text[..at].split_whitespace().next_back()?;
+        let name = name.split_once('[').map_or(name, |(name, _)| name);
+        Some((register, name))
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::declaration;
+    use super::declarations;
 
     #[test]
     fn declarations_are_read() {
@@ -177,8 +179,8 @@ mod tests {
                 ("b1, space100", "p"),
             ),
         ] {
-            assert_eq!(declaration(line), Some(expected));
+            assert_eq!(declarations(line).collect::<Vec<_>>(), [expected]);
         }
-        assert_eq!(declaration("float4 x : SV_Target0;"), None);
+        assert_eq!(declarations("float4 x : SV_Target0;").count(), 0);
     }
 }

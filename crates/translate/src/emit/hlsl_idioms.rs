@@ -16,7 +16,7 @@
 //! **`ConstantBuffer<T>`** is not in shader model 5.0; `ConstantBuffer<T> name: register(b0);` becomes
 //! `cbuffer name_block : register(b0) { T name; }`.
 //!
-//! One pass over the lines: time and memory are linear in the text.
+//! Only lines that may be of an idiom are looked at; the rest is copied as it is, so time and memory are linear in the text.
 
 use std::collections::BTreeMap;
 
@@ -41,27 +41,31 @@ impl Rewrite<'_> {
         let mut out = String::with_capacity(text.len());
         let mut index_buffers: BTreeMap<&str, u32> = BTreeMap::new();
         let mut declared = 0;
-        for line in text.split_inclusive('\n') {
-            let bare = line.trim_end_matches('\n');
-            if is_heap(bare) {
+        let mut rest = text;
+        while let Some((before, line, after)) = self.next_line(rest) {
+            out.push_str(before);
+            rest = after;
+            if is_heap(line) {
                 continue;
             }
-            if let Some((name, group)) = self.index_buffer(bare) {
+            if let Some((name, group)) = self.index_buffer(line) {
                 index_buffers.insert(name, group);
-            } else if let Some(sampler) = Sampler::read(bare) {
+            } else if let Some(sampler) = Sampler::read(line) {
                 let register = self.register(&sampler, &index_buffers)?;
                 out.push_str(&format!(
                     "{} {} : register({register});\n",
                     sampler.ty, sampler.name
                 ));
                 declared += 1;
-            } else if let Some(plain) = self.constant_buffer(bare, text) {
+            } else if let Some(plain) = self.constant_buffer(line, text) {
                 out.push_str(&plain);
             } else {
-                check_traces(bare, &index_buffers)?;
+                check_traces(line, &index_buffers)?;
                 out.push_str(line);
+                out.push('\n');
             }
         }
+        out.push_str(rest);
         if declared == self.samplers.len() {
             Ok(out)
         } else {
@@ -70,6 +74,25 @@ impl Rewrite<'_> {
                 self.samplers.len()
             ))
         }
+    }
+
+    /// The next line that may have to be rewritten, without its end, and what stands before and after it. Every line of
+    /// every idiom has `naga` in it, but for constant buffers.
+    fn next_line<'t>(&self, text: &'t str) -> Option<(&'t str, &'t str, &'t str)> {
+        let naga = text.find("naga");
+        let constants = if self.plain_constant_buffers {
+            text.find("ConstantBuffer<")
+        } else {
+            None
+        };
+        let at = match (naga, constants) {
+            (Some(a), Some(b)) => a.min(b),
+            (one, other) => one.or(other)?,
+        };
+        let start = text[..at].rfind('\n').map_or(0, |newline| newline + 1);
+        let end = text[at..].find('\n').map_or(text.len(), |newline| at + newline);
+        let after = text.get(end + 1..).unwrap_or_default();
+        Some((&text[..start], &text[start..end], after))
     }
 
     /// `StructuredBuffer<uint> NAME : register(tGROUP, spaceN);`
@@ -153,9 +176,6 @@ impl<'t> Sampler<'t> {
 
 /// No heap and no index buffer may be named in a line that stays.
 fn check_traces(line: &str, index_buffers: &BTreeMap<&str, u32>) -> Result<(), String> {
-    if !line.contains("naga") {
-        return Ok(());
-    }
     let trace = identifiers(line)
         .find(|word| *word == HEAP || *word == COMPARISON_HEAP || index_buffers.contains_key(word));
     match trace {

@@ -186,13 +186,12 @@ fn emit_unit(
     options: &EmitOptions,
     file_name: String,
 ) -> Result<EmittedFile, Diagnostic> {
-    let resources = resources::resources(unit);
     let job = Job {
         shader,
         unit,
         target,
         options,
-        resources: &resources,
+        resources: &unit.resources,
         immediates: resources::immediates(unit),
     };
     support::check(&job)?;

@@ -54,7 +54,7 @@ fn files_at(emitted: &[Emitted], at: usize) -> Files<'_> {
 }
 
 fn entry(shader: &Shader, unit: &Unit, files: &Files<'_>) -> Entry {
-    let resources = resources::resources(unit);
+    let resources = &unit.resources;
     let by_target = |value: &dyn Fn(&EmittedFile) -> String| -> BTreeMap<String, String> {
         files
             .iter()
