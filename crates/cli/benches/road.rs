@@ -45,7 +45,13 @@ impl Samples {
     fn spread(&self) -> String {
         let sorted = self.sorted();
         let ms = |time: &Duration| format!("{:.2}", time.as_secs_f64() * 1e3);
-        format!("{} ms ({}–{}, {} runs)", ms(&self.median()), ms(&sorted[0]), ms(&sorted[sorted.len() - 1]), sorted.len())
+        format!(
+            "{} ms ({}–{}, {} runs)",
+            ms(&self.median()),
+            ms(&sorted[0]),
+            ms(&sorted[sorted.len() - 1]),
+            sorted.len()
+        )
     }
 }
 
@@ -85,20 +91,30 @@ impl Table {
 
 /// The permutation with every effect on.
 fn richest() -> FeatureSet {
-    FeatureSet { lights: Lights::Many, specular: true, transform: Transform::General, ..FeatureSet::default() }.all_effects()
+    FeatureSet {
+        lights: Lights::Many,
+        specular: true,
+        transform: Transform::General,
+        ..FeatureSet::default()
+    }
+    .all_effects()
 }
 
 fn one_permutation(library: &Library, table: &mut Table) {
     let modules = [Stage::Vertex, Stage::Fragment].map(|stage| {
-        let assembled = library.assemble_surface(&richest(), stage).expect("every permutation assembles");
+        let assembled = library
+            .assemble_surface(&richest(), stage)
+            .expect("every permutation assembles");
         (assembled.name, assembled.wgsl)
     });
     let ours = |with_manifest: bool| {
         for (name, wgsl) in &modules {
             let shader = Shader::parse(name, &Source::Wgsl(wgsl.clone())).expect("the library is valid");
             let options = EmitOptions::default();
-            let emitted: Vec<_> =
-                Target::ALL.iter().map(|target| emit(&shader, *target, &options).expect("every target takes it")).collect();
+            let emitted: Vec<_> = Target::ALL
+                .iter()
+                .map(|target| emit(&shader, *target, &options).expect("every target takes it"))
+                .collect();
             if with_manifest {
                 black_box(manifest(&shader, &options, &emitted));
             }
@@ -107,13 +123,18 @@ fn one_permutation(library: &Library, table: &mut Table) {
     };
     let [emitted, with_manifest, naga] = measure(
         101,
-        [&mut || ours(false), &mut || ours(true), &mut || modules.iter().for_each(|(_, wgsl)| plain_naga::all(wgsl))],
+        [&mut || ours(false), &mut || ours(true), &mut || {
+            modules.iter().for_each(|(_, wgsl)| plain_naga::all(wgsl))
+        }],
     );
     table.row("one permutation, two stages, five targets", emitted.spread());
     table.row("  the same with its manifest", with_manifest.spread());
     table.row("  naga: parse + validate + write", naga.spread());
     table.goal("  ratio to naga", ratio(&emitted, &naga), 1.15, "");
-    table.row("  ratio to naga, with the manifest", format!("{:.2}", ratio(&with_manifest, &naga)));
+    table.row(
+        "  ratio to naga, with the manifest",
+        format!("{:.2}", ratio(&with_manifest, &naga)),
+    );
 }
 
 /// What naga does by itself with its own defaults.
@@ -136,27 +157,47 @@ mod plain_naga {
     }
 
     fn hlsl(module: &Module, info: &ModuleInfo) -> String {
-        let options = hlsl::Options { fake_missing_bindings: true, ..hlsl::Options::default() };
+        let options = hlsl::Options {
+            fake_missing_bindings: true,
+            ..hlsl::Options::default()
+        };
         let pipeline = hlsl::PipelineOptions::default();
         let mut text = String::new();
-        hlsl::Writer::new(&mut text, &options, &pipeline).write(module, info, None).expect("HLSL");
+        hlsl::Writer::new(&mut text, &options, &pipeline)
+            .write(module, info, None)
+            .expect("HLSL");
         text
     }
 
     fn msl(module: &Module, info: &ModuleInfo) -> String {
-        let options = msl::Options { fake_missing_bindings: true, lang_version: (2, 0), ..msl::Options::default() };
-        msl::write_string(module, info, &options, &msl::PipelineOptions::default()).expect("MSL").0
+        let options = msl::Options {
+            fake_missing_bindings: true,
+            lang_version: (2, 0),
+            ..msl::Options::default()
+        };
+        msl::write_string(module, info, &options, &msl::PipelineOptions::default())
+            .expect("MSL")
+            .0
     }
 
     fn glsl(module: &Module, info: &ModuleInfo) -> String {
-        let options = glsl::Options { version: glsl::Version::Desktop(450), ..glsl::Options::default() };
+        let options = glsl::Options {
+            version: glsl::Version::Desktop(450),
+            ..glsl::Options::default()
+        };
         let entry = &module.entry_points[0];
         assert!(matches!(entry.stage, ShaderStage::Vertex | ShaderStage::Fragment));
-        let pipeline =
-            glsl::PipelineOptions { shader_stage: entry.stage, entry_point: entry.name.clone(), multiview: None };
+        let pipeline = glsl::PipelineOptions {
+            shader_stage: entry.stage,
+            entry_point: entry.name.clone(),
+            multiview: None,
+        };
         let mut text = String::new();
         let policies = naga::proc::BoundsCheckPolicies::default();
-        glsl::Writer::new(&mut text, module, info, &options, &pipeline, policies).expect("GLSL").write().expect("GLSL");
+        glsl::Writer::new(&mut text, module, info, &options, &pipeline, policies)
+            .expect("GLSL")
+            .write()
+            .expect("GLSL");
         text
     }
 }
@@ -166,15 +207,22 @@ fn whole_index(library: &Library, table: &mut Table) {
     let mut stages = BTreeMap::new();
     for set in &sets {
         stages.entry(set.vertex().name()).or_insert((*set, Stage::Vertex));
-        stages.entry(set.fragment().name()).or_insert((*set, Stage::Fragment));
+        stages
+            .entry(set.fragment().name())
+            .or_insert((*set, Stage::Fragment));
     }
     let stages: Vec<(FeatureSet, Stage)> = stages.into_values().collect();
     let one = |(set, stage): &(FeatureSet, Stage)| {
-        let assembled = library.assemble_surface(set, *stage).expect("every permutation assembles");
-        let shader = Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl)).expect("the library is valid");
+        let assembled = library
+            .assemble_surface(set, *stage)
+            .expect("every permutation assembles");
+        let shader =
+            Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl)).expect("the library is valid");
         let options = EmitOptions::default();
-        let emitted: Vec<_> =
-            Target::ALL.iter().map(|target| emit(&shader, *target, &options).expect("every target takes it")).collect();
+        let emitted: Vec<_> = Target::ALL
+            .iter()
+            .map(|target| emit(&shader, *target, &options).expect("every target takes it"))
+            .collect();
         manifest(&shader, &options, &emitted).entries.len()
     };
     let [single, parallel] = measure(
@@ -188,8 +236,18 @@ fn whole_index(library: &Library, table: &mut Table) {
             },
         ],
     );
-    table.row(&format!("index: {} permutations, {} stages, one core", sets.len(), stages.len()), single.spread());
-    table.row(&format!("  {} cores", rayon::current_num_threads()), parallel.spread());
+    table.row(
+        &format!(
+            "index: {} permutations, {} stages, one core",
+            sets.len(),
+            stages.len()
+        ),
+        single.spread(),
+    );
+    table.row(
+        &format!("  {} cores", rayon::current_num_threads()),
+        parallel.spread(),
+    );
     table.row("  speed-up", format!("{:.2}", ratio(&single, &parallel)));
 }
 
@@ -198,8 +256,18 @@ fn no_op(table: &mut Table) {
     let out = tempfile::tempdir().expect("a temporary folder");
     let mut call = || {
         let mut command = Command::new(env!("CARGO_BIN_EXE_bossage"));
-        let output = command.arg("emit").arg(&scene).arg("-o").arg(out.path()).output().expect("the binary starts");
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let output = command
+            .arg("emit")
+            .arg(&scene)
+            .arg("-o")
+            .arg(out.path())
+            .output()
+            .expect("the binary starts");
+        assert!(
+            output.status.success(),
+            "{}",
+            String::from_utf8_lossy(&output.stderr)
+        );
     };
     let [samples] = measure(31, [&mut call]);
     table.row("emit again, nothing changed (process included)", samples.spread());
@@ -208,8 +276,9 @@ fn no_op(table: &mut Table) {
 
 fn bake(table: &mut Table) {
     const SIDE: u32 = 2048;
-    let field = HeightField::from_fn(SIDE, SIDE, |x, y| (x * 31 ^ y * 17) as f32 % 256.0 / 255.0);
-    let bake = Bake::central(&field, [0.04; 2], EdgeMode::Wrap, NormalCodec::Unorm).expect("an ordinary scale");
+    let field = HeightField::from_fn(SIDE, SIDE, |x, y| ((x * 31) ^ (y * 17)) as f32 % 256.0 / 255.0);
+    let bake =
+        Bake::central(&field, [0.04; 2], EdgeMode::Wrap, NormalCodec::Unorm).expect("an ordinary scale");
     let mut copy = vec![0.0_f32; field.texels.len()];
     let [baked, copied] = measure(
         21,
@@ -235,7 +304,9 @@ fn bake(table: &mut Table) {
 fn peak_memory() -> String {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-    let kilobytes = line.and_then(|rest| rest.trim().strip_suffix(" kB")).and_then(|number| number.parse::<f64>().ok());
+    let kilobytes = line
+        .and_then(|rest| rest.trim().strip_suffix(" kB"))
+        .and_then(|number| number.parse::<f64>().ok());
     match kilobytes.map(|kilobytes| kilobytes / 1024.0) {
         Some(megabytes) if megabytes <= 500.0 => format!("{megabytes:.0} MB, goal ≤ 500 MB: met"),
         Some(megabytes) => format!("{megabytes:.0} MB, goal ≤ 500 MB: MISSED"),

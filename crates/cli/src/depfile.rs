@@ -37,7 +37,10 @@ mod tests {
 
     #[test]
     fn names_are_escaped_as_make_reads_them() {
-        let rule = rule(Path::new("out/a b.spv"), [Path::new("x#1.wgsl"), Path::new("$y\\ z.toml")]);
+        let rule = rule(
+            Path::new("out/a b.spv"),
+            [Path::new("x#1.wgsl"), Path::new("$y\\ z.toml")],
+        );
         assert_eq!(rule, "out/a\\ b.spv: \\\n  x\\#1.wgsl \\\n  $$y\\\\\\ z.toml\n");
     }
 }

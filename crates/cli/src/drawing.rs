@@ -8,13 +8,12 @@ use std::sync::Arc;
 
 use bossage_assets::EdgeMode;
 use bossage_runner::{
-    AddressMode, Blend, Clear, Code, Cull, Depth, Device, Draw, Mesh, RenderJob, Resources, SamplerSettings, Shader as Stage,
-    TexelFormat, TextureData, TextureDimension,
+    AddressMode, Blend, Clear, Code, Cull, Depth, Device, Draw, Mesh, RenderJob, Resources, SamplerSettings,
+    Shader as Stage, TexelFormat, TextureData, TextureDimension,
 };
 use bossage_scene::{Plan, Scene, Texels, Texture};
 use bossage_shaders::Library;
 use bossage_translate::manifest::Entry;
-use bossage_translate::{EmitOptions, Shader, Source, manifest};
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
@@ -39,12 +38,20 @@ pub(crate) fn draw(device: &Device, scene: &Scene, plan: &Plan, library: &Librar
         height: scene.camera.size[1],
         targets: vec![Clear::Colour(BACKGROUND)],
         read_depth: false,
-        draws: draws.iter().zip(&meshes).map(|(draw, mesh)| one(draw, mesh, &modules, &textures)).collect::<Result<_>>()?,
+        draws: draws
+            .iter()
+            .zip(&meshes)
+            .map(|(draw, mesh)| one(draw, mesh, &modules, &textures))
+            .collect::<Result<_>>()?,
     };
     let output = job.run(device)?;
     let target = output.targets.into_iter().next().unwrap_or_default();
     let pixels = target.pixels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
-    Ok(Linear { width: target.width, height: target.height, pixels })
+    Ok(Linear {
+        width: target.width,
+        height: target.height,
+        pixels,
+    })
 }
 
 /// A module of the plan with its one entry point.
@@ -58,12 +65,14 @@ fn modules(plan: &Plan, library: &Library) -> Result<BTreeMap<String, Module>> {
     assembled
         .into_par_iter()
         .map(|assembled| {
-            let source = Source::Wgsl(assembled.wgsl.clone());
-            let shader = Shader::parse(&assembled.name, &source).map_err(|d| Error::Shaders(vec![d]))?;
-            let entries = manifest(&shader, &EmitOptions::default(), &[]).entries;
-            let entry = entries.into_iter().next();
-            let entry = entry.ok_or_else(|| Error::Call(format!("{} has no entry point", assembled.name)))?;
-            Ok((assembled.name, Module { wgsl: assembled.wgsl, entry }))
+            let entry = inputs::entry(&assembled)?;
+            Ok((
+                assembled.name,
+                Module {
+                    wgsl: assembled.wgsl,
+                    entry,
+                },
+            ))
         })
         .collect()
 }
@@ -75,20 +84,44 @@ fn one<'a>(
     textures: &'a Uploaded,
 ) -> Result<Draw<'a>> {
     let stage = |name: String| -> Result<Stage<'a>> {
-        let module = modules.get(&name).ok_or_else(|| Error::Call(format!("the plan has no module {name}")))?;
-        Ok(Stage { code: Code::Wgsl(&module.wgsl), entry: &module.entry })
+        let module = modules
+            .get(&name)
+            .ok_or_else(|| Error::Call(format!("the plan has no module {name}")))?;
+        Ok(Stage {
+            code: Code::Wgsl(&module.wgsl),
+            entry: &module.entry,
+        })
     };
-    let (vertex, fragment) = (stage(draw.features.vertex().name())?, stage(draw.features.fragment().name())?);
+    let (vertex, fragment) = (
+        stage(draw.features.vertex().name())?,
+        stage(draw.features.fragment().name())?,
+    );
     let bound = |name: &str| vertex.binding(name).is_some() || fragment.binding(name).is_some();
     let named = draw.textures.iter().filter(|(name, _)| bound(name));
-    let sampler = SamplerSettings { address: address(draw.edge), ..SamplerSettings::default() };
+    let sampler = SamplerSettings {
+        address: address(draw.edge),
+        ..SamplerSettings::default()
+    };
     let resources = Resources {
         uniforms: draw.uniforms.clone(),
-        textures: named.map(|(name, texture)| (name.clone(), &textures[&key(texture)])).collect(),
-        samplers: bound(SAMPLER).then(|| (SAMPLER.to_owned(), sampler)).into_iter().collect(),
+        textures: named
+            .map(|(name, texture)| (name.clone(), &textures[&key(texture)]))
+            .collect(),
+        samplers: bound(SAMPLER)
+            .then(|| (SAMPLER.to_owned(), sampler))
+            .into_iter()
+            .collect(),
         ..Resources::default()
     };
-    Ok(Draw { vertex, fragment, mesh, resources, cull: Cull::None, blend: Blend::Replace, depth: Depth::TestAndWrite })
+    Ok(Draw {
+        vertex,
+        fragment,
+        mesh,
+        resources,
+        cull: Cull::None,
+        blend: Blend::Replace,
+        depth: Depth::TestAndWrite,
+    })
 }
 
 fn mesh(mesh: &bossage_assets::Mesh) -> Mesh {
@@ -110,9 +143,14 @@ fn key(texture: &Arc<Texture>) -> usize {
 }
 
 fn upload(draws: &[bossage_scene::Draw]) -> Uploaded {
-    let all: BTreeMap<usize, &Arc<Texture>> =
-        draws.iter().flat_map(|draw| draw.textures.values()).map(|texture| (key(texture), texture)).collect();
-    all.into_iter().map(|(key, texture)| (key, data(texture))).collect()
+    let all: BTreeMap<usize, &Arc<Texture>> = draws
+        .iter()
+        .flat_map(|draw| draw.textures.values())
+        .map(|texture| (key(texture), texture))
+        .collect();
+    all.into_iter()
+        .map(|(key, texture)| (key, data(texture)))
+        .collect()
 }
 
 fn data(texture: &Texture) -> TextureData {
@@ -137,7 +175,11 @@ const fn format(texels: &Texels) -> TexelFormat {
 fn bytes(texels: &Texels) -> Vec<u8> {
     match texels {
         Texels::Rgba8Unorm(texels) => texels.as_flattened().to_vec(),
-        Texels::Rgba32Float(texels) => texels.as_flattened().iter().flat_map(|value| value.to_ne_bytes()).collect(),
+        Texels::Rgba32Float(texels) => texels
+            .as_flattened()
+            .iter()
+            .flat_map(|value| value.to_ne_bytes())
+            .collect(),
         Texels::R32Float(texels) => texels.iter().flat_map(|value| value.to_ne_bytes()).collect(),
     }
 }

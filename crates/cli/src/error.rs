@@ -102,7 +102,10 @@ impl Error {
 
 /// Reads a file, or says which one could not be read.
 pub(crate) fn read(path: &Path) -> Result<Vec<u8>> {
-    std::fs::read(path).map_err(|source| Error::Read { path: path.to_owned(), source })
+    std::fs::read(path).map_err(|source| Error::Read {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 /// An error with everything that caused it, one `: `-joined line (or a block, where a cause brings its own picture).

@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 
 use bossage_scene::{Plan, Scene, Shape};
 use bossage_shaders::{AssembledShader, Library, Stage as Part};
-use bossage_translate::{Diagnostic, Shader, Source, Stage};
+use bossage_translate::manifest::Entry;
+use bossage_translate::{EmitOptions, Shader, Source, Stage, manifest};
 use rayon::prelude::*;
 
 use crate::args::Global;
@@ -53,24 +54,35 @@ pub(crate) struct Planned {
 
 impl Module {
     fn new(name: String, input: &Path, source: Source, lines_are_the_users: bool) -> Self {
-        let label = if lines_are_the_users { input.display().to_string() } else { name.clone() };
-        Self { name, input: input.to_owned(), label, source }
+        let label = if lines_are_the_users {
+            input.display().to_string()
+        } else {
+            name.clone()
+        };
+        Self {
+            name,
+            input: input.to_owned(),
+            label,
+            source,
+        }
     }
 
     /// The parsed and validated shader, ready to be written to files of its name.
-    pub(crate) fn parse(&self) -> std::result::Result<Shader, Diagnostic> {
-        Shader::parse(&self.name, &self.source).or_else(|_| self.parse_labelled())
+    pub(crate) fn parse(&self) -> Result<Shader> {
+        parse(&self.name, &self.source).or_else(|_| self.parse_labelled())
     }
 
     /// The same, under the name that messages use.
-    pub(crate) fn parse_labelled(&self) -> std::result::Result<Shader, Diagnostic> {
-        Shader::parse(&self.label, &self.source)
+    pub(crate) fn parse_labelled(&self) -> Result<Shader> {
+        parse(&self.label, &self.source)
     }
 }
 
 /// The library that the flags ask for, and the files it was read from (none for the embedded one).
 pub(crate) fn library(global: &Global) -> Result<(Library, BTreeSet<PathBuf>)> {
-    let Some(folder) = &global.shader_dir else { return Ok((Library::embedded()?, BTreeSet::new())) };
+    let Some(folder) = &global.shader_dir else {
+        return Ok((Library::embedded()?, BTreeSet::new()));
+    };
     let library = Library::from_dir(folder)?;
     let mut files = BTreeSet::new();
     walk(folder, &mut files)?;
@@ -79,7 +91,10 @@ pub(crate) fn library(global: &Global) -> Result<(Library, BTreeSet<PathBuf>)> {
 
 /// All shader sources below a folder.
 fn walk(folder: &Path, files: &mut BTreeSet<PathBuf>) -> Result<()> {
-    let cannot = |source| Error::Read { path: folder.to_owned(), source };
+    let cannot = |source| Error::Read {
+        path: folder.to_owned(),
+        source,
+    };
     for entry in std::fs::read_dir(folder).map_err(cannot)? {
         let path = entry.map_err(cannot)?.path();
         if path.is_dir() {
@@ -94,7 +109,10 @@ fn walk(folder: &Path, files: &mut BTreeSet<PathBuf>) -> Result<()> {
 /// Reads all inputs. The first wrong one ends it.
 pub(crate) fn gather(paths: &[PathBuf], stage: Option<Stage>, global: &Global) -> Result<Inputs> {
     let (library, read) = library(global)?;
-    let mut inputs = Inputs { read, ..Inputs::default() };
+    let mut inputs = Inputs {
+        read,
+        ..Inputs::default()
+    };
     for path in paths {
         inputs.add(path, stage, &library)?;
     }
@@ -116,9 +134,13 @@ impl Inputs {
         let plan = bossage_scene::plan(&scene);
         for assembled in assemble(library, &plan)? {
             let source = Source::Wgsl(assembled.wgsl);
-            let shared = self.modules.iter().any(|m| m.name == assembled.name && m.source == source);
+            let shared = self
+                .modules
+                .iter()
+                .any(|m| m.name == assembled.name && m.source == source);
             if !shared {
-                self.modules.push(Module::new(assembled.name, path, source, false));
+                self.modules
+                    .push(Module::new(assembled.name, path, source, false));
             }
         }
         self.read.extend(files_of(&scene));
@@ -130,9 +152,16 @@ impl Inputs {
         read_shader(path)?;
         let assembled = library.assemble_user_file(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        self.read.extend(assembled.modules.iter().map(|module| folder.join(module)).filter(|file| file.is_file()));
+        self.read.extend(
+            assembled
+                .modules
+                .iter()
+                .map(|module| folder.join(module))
+                .filter(|file| file.is_file()),
+        );
         self.read.insert(path.to_owned());
-        self.modules.push(Module::new(stem(path), path, Source::Wgsl(assembled.wgsl), false));
+        self.modules
+            .push(Module::new(stem(path), path, Source::Wgsl(assembled.wgsl), false));
         Ok(())
     }
 
@@ -141,9 +170,13 @@ impl Inputs {
         let (name, source) = match (kind.as_str(), glsl_stage(path, stage)) {
             ("wgsl", _) => (stem(path), Source::Wgsl(read_text(path)?)),
             ("spv", _) => (stem(path), Source::Spirv(read_shader(path)?)),
-            ("vert" | "frag" | "comp" | "glsl", Some(stage)) => {
-                (format!("{}_{}", stem(path), stage.glsl_extension()), Source::Glsl { text: read_text(path)?, stage })
-            }
+            ("vert" | "frag" | "comp" | "glsl", Some(stage)) => (
+                format!("{}_{}", stem(path), stage.glsl_extension()),
+                Source::Glsl {
+                    text: read_text(path)?,
+                    stage,
+                },
+            ),
             ("glsl", None) => return Err(stage_missing(path)),
             _ => return Err(unknown_kind(path, &kind)),
         };
@@ -159,11 +192,29 @@ impl Inputs {
         for result in parsed {
             match result {
                 Ok(shader) => shaders.push(shader),
-                Err(diagnostic) => wrong.push(diagnostic),
+                Err(Error::Shaders(diagnostics)) => wrong.extend(diagnostics),
+                Err(other) => return Err(other),
             }
         }
-        if wrong.is_empty() { Ok(shaders) } else { Err(Error::Shaders(wrong)) }
+        if wrong.is_empty() {
+            Ok(shaders)
+        } else {
+            Err(Error::Shaders(wrong))
+        }
     }
+}
+
+/// A parsed and validated shader.
+pub(crate) fn parse(name: &str, source: &Source) -> Result<Shader> {
+    Shader::parse(name, source).map_err(|diagnostic| Error::Shaders(vec![diagnostic]))
+}
+
+/// A shader of the library, parsed, with the one entry point that each of ours has.
+pub(crate) fn entry(assembled: &AssembledShader) -> Result<Entry> {
+    let shader = parse(&assembled.name, &Source::Wgsl(assembled.wgsl.clone()))?;
+    let entries = manifest(&shader, &EmitOptions::default(), &[]).entries;
+    let nothing = || Error::Call(format!("{} has no entry point", assembled.name));
+    entries.into_iter().next().ok_or_else(nothing)
 }
 
 /// The modules of a plan's permutations, each once, sorted by name.
@@ -195,12 +246,17 @@ pub(crate) fn files_of(scene: &Scene) -> BTreeSet<PathBuf> {
 }
 
 fn extension(path: &Path) -> String {
-    path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
+    path.extension()
+        .map(|e| e.to_string_lossy().to_lowercase())
+        .unwrap_or_default()
 }
 
 /// The file's name without its extensions, with nothing in it that is unsafe in file names anywhere.
 fn stem(path: &Path) -> String {
-    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let name = path
+        .file_name()
+        .map(|n| n.to_string_lossy().into_owned())
+        .unwrap_or_default();
     let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem);
     let is_safe = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
     stem.chars().map(|c| if is_safe(c) { c } else { '_' }).collect()
@@ -208,21 +264,28 @@ fn stem(path: &Path) -> String {
 
 /// What the call says, else what the extension says: `.frag`, or `.frag.glsl`.
 fn glsl_stage(path: &Path, said: Option<Stage>) -> Option<Stage> {
-    let inner = path.file_stem().map(|stem| extension(Path::new(stem))).unwrap_or_default();
+    let inner = path
+        .file_stem()
+        .map(|stem| extension(Path::new(stem)))
+        .unwrap_or_default();
     let by_extension = |extension: &str| match extension {
         "vert" => Some(Stage::Vertex),
         "frag" => Some(Stage::Fragment),
         "comp" => Some(Stage::Compute),
         _ => None,
     };
-    by_extension(&extension(path)).or(said).or_else(|| by_extension(&inner))
+    by_extension(&extension(path))
+        .or(said)
+        .or_else(|| by_extension(&inner))
 }
 
 fn read_shader(path: &Path) -> Result<Vec<u8>> {
     let size = std::fs::metadata(path).map(|meta| meta.len()).unwrap_or(0);
     if size > MAX_SHADER_BYTES {
         let (path, limit) = (path.display(), MAX_SHADER_BYTES >> 20);
-        return Err(Error::Call(format!("{path} has {size} bytes; shaders of at most {limit} MiB are read")));
+        return Err(Error::Call(format!(
+            "{path} has {size} bytes; shaders of at most {limit} MiB are read"
+        )));
     }
     read(path)
 }
@@ -244,7 +307,10 @@ fn stage_missing(path: &Path) -> Error {
 
 fn unknown_kind(path: &Path, kind: &str) -> Error {
     let known = suggestion(kind, EXTENSIONS);
-    Error::Call(format!("{}: not a kind of file that is read here ({known})", path.display()))
+    Error::Call(format!(
+        "{}: not a kind of file that is read here ({known})",
+        path.display()
+    ))
 }
 
 #[cfg(test)]
@@ -258,7 +324,11 @@ mod tests {
         assert_eq!(stage("a.FRAG", None), Some(Stage::Fragment));
         assert_eq!(stage("a.comp.glsl", None), Some(Stage::Compute));
         assert_eq!(stage("a.glsl", Some(Stage::Compute)), Some(Stage::Compute));
-        assert_eq!(stage("a.vert", Some(Stage::Compute)), Some(Stage::Vertex), "a file's own word wins");
+        assert_eq!(
+            stage("a.vert", Some(Stage::Compute)),
+            Some(Stage::Vertex),
+            "a file's own word wins"
+        );
         assert_eq!(stage("a.glsl", None), None);
     }
 

@@ -83,7 +83,11 @@ fn report(error: &error::Error) {
 fn print_answer(answer: &clap::Error) -> ExitCode {
     // A reader that went away has seen enough.
     let _ = answer.print();
-    if answer.use_stderr() { ExitCode::from(2) } else { ExitCode::SUCCESS }
+    if answer.use_stderr() {
+        ExitCode::from(2)
+    } else {
+        ExitCode::SUCCESS
+    }
 }
 
 fn dispatch(cli: Cli) -> Result<Verdict> {

@@ -16,7 +16,10 @@ pub(crate) fn options(versions: &Versions) -> EmitOptions {
 
 /// The targets asked for, in the order in which they are always emitted, each once.
 pub(crate) fn targets(names: &[TargetName]) -> Vec<Target> {
-    Target::ALL.into_iter().filter(|target| names.iter().any(|name| self::target(*name) == *target)).collect()
+    Target::ALL
+        .into_iter()
+        .filter(|target| names.iter().any(|name| self::target(*name) == *target))
+        .collect()
 }
 
 const fn target(name: TargetName) -> Target {
@@ -82,7 +85,9 @@ mod tests {
     fn defaults_agree_with_the_library() {
         use clap::Parser;
         let cli = crate::args::Cli::try_parse_from(["bossage", "emit", "a.wgsl", "-o", "x"]).unwrap();
-        let crate::args::Command::Emit(emit) = cli.command else { panic!("emit was asked for") };
+        let crate::args::Command::Emit(emit) = cli.command else {
+            panic!("emit was asked for")
+        };
         assert_eq!(options(&emit.versions), EmitOptions::default());
         assert_eq!(targets(&emit.target), Target::ALL);
     }

@@ -61,7 +61,11 @@ impl Outputs {
     /// [`Error::Collision`] when the path is planned already. Names that differ in case only collide too, because they
     /// do on the file systems of two of the three desktops.
     pub fn add(&mut self, path: PathBuf, origin: &str, bytes: Vec<u8>) -> Result<()> {
-        let planned = Planned { path, origin: origin.to_owned(), bytes };
+        let planned = Planned {
+            path,
+            origin: origin.to_owned(),
+            bytes,
+        };
         match self.files.entry(collision_key(&planned.path)) {
             std::collections::btree_map::Entry::Vacant(slot) => {
                 slot.insert(planned);
@@ -83,7 +87,10 @@ impl Outputs {
         let mut staging = Staging::default();
         let mut unchanged = 0;
         for planned in self.files.values() {
-            if !staging.stage(&planned.path, &planned.bytes).map_err(|e| cannot_write(&planned.path, e))? {
+            if !staging
+                .stage(&planned.path, &planned.bytes)
+                .map_err(|e| cannot_write(&planned.path, e))?
+            {
                 unchanged += 1;
             }
         }
@@ -108,11 +115,17 @@ pub fn write_whole(path: &Path, bytes: Vec<u8>) -> Result<()> {
 /// # Errors
 /// [`Error::Write`] naming the file.
 pub fn check_writable(path: &Path) -> Result<()> {
-    Staging::default().stage(path, b"").map(drop).map_err(|e| cannot_write(path, e))
+    Staging::default()
+        .stage(path, b"")
+        .map(drop)
+        .map_err(|e| cannot_write(path, e))
 }
 
 fn cannot_write(path: &Path, source: io::Error) -> Error {
-    Error::Write { path: path.to_owned(), source }
+    Error::Write {
+        path: path.to_owned(),
+        source,
+    }
 }
 
 fn collision_key(path: &Path) -> PathBuf {
@@ -136,7 +149,11 @@ struct Staging {
 impl Staging {
     /// Stages one file; false when its target already holds these bytes.
     fn stage(&mut self, path: &Path, bytes: &[u8]) -> io::Result<bool> {
-        let target = if path.is_symlink() { fs::canonicalize(path)? } else { path.to_owned() };
+        let target = if path.is_symlink() {
+            fs::canonicalize(path)?
+        } else {
+            path.to_owned()
+        };
         match fs::metadata(&target) {
             Ok(meta) if meta.is_dir() => return Err(io::Error::other("it is a folder")),
             Ok(meta) if !meta.is_file() => {
@@ -148,14 +165,19 @@ impl Staging {
         }
         let folder = parent(&target);
         self.create_folder(&folder)?;
-        let staged = self.staging_folder(&folder)?.join(format!("{}", self.moves.len()));
+        let staged = self
+            .staging_folder(&folder)?
+            .join(format!("{}", self.moves.len()));
         fs::write(&staged, bytes)?;
         self.moves.push((staged, target));
         Ok(true)
     }
 
     fn create_folder(&mut self, folder: &Path) -> io::Result<()> {
-        let missing: Vec<&Path> = folder.ancestors().take_while(|a| !a.as_os_str().is_empty() && !a.exists()).collect();
+        let missing: Vec<&Path> = folder
+            .ancestors()
+            .take_while(|a| !a.as_os_str().is_empty() && !a.exists())
+            .collect();
         for ancestor in missing.into_iter().rev() {
             match fs::create_dir(ancestor) {
                 Ok(()) => self.created.push(ancestor.to_owned()),
@@ -218,8 +240,10 @@ mod tests {
     use super::*;
 
     fn entries(folder: &Path) -> Vec<String> {
-        let mut names: Vec<String> =
-            fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        let mut names: Vec<String> = fs::read_dir(folder)
+            .unwrap()
+            .map(|e| e.unwrap().file_name().into_string().unwrap())
+            .collect();
         names.sort();
         names
     }
@@ -228,8 +252,14 @@ mod tests {
     fn two_origins_of_one_file_are_both_named() {
         let mut outputs = Outputs::default();
         outputs.add("out/x.spv".into(), "a/x.wgsl", vec![]).unwrap();
-        let error = outputs.add("out/./X.spv".into(), "b/X.wgsl", vec![]).unwrap_err().to_string();
-        assert!(error.contains("a/x.wgsl") && error.contains("b/X.wgsl"), "{error}");
+        let error = outputs
+            .add("out/./X.spv".into(), "b/X.wgsl", vec![])
+            .unwrap_err()
+            .to_string();
+        assert!(
+            error.contains("a/x.wgsl") && error.contains("b/X.wgsl"),
+            "{error}"
+        );
         outputs.add("out/y.spv".into(), "b/X.wgsl", vec![]).unwrap();
     }
 
@@ -245,7 +275,11 @@ mod tests {
         let error = outputs.commit().unwrap_err();
         assert_eq!(error.exit_code(), 2);
         assert!(error.to_string().contains("bad.txt"), "{error}");
-        assert_eq!(entries(folder.path()), ["file"], "folders made on the way are removed too");
+        assert_eq!(
+            entries(folder.path()),
+            ["file"],
+            "folders made on the way are removed too"
+        );
     }
 
     #[test]
@@ -276,7 +310,13 @@ mod tests {
         let stamp = fs::metadata(&path).unwrap().modified().unwrap();
         let mut outputs = Outputs::default();
         outputs.add(path.clone(), "a", b"1".to_vec()).unwrap();
-        assert_eq!(outputs.commit().unwrap(), Written { changed: 0, unchanged: 1 });
+        assert_eq!(
+            outputs.commit().unwrap(),
+            Written {
+                changed: 0,
+                unchanged: 1
+            }
+        );
         assert_eq!(fs::metadata(&path).unwrap().modified().unwrap(), stamp);
         write_whole(&path, b"2".to_vec()).unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"2");

@@ -12,7 +12,9 @@ pub(crate) fn png_rgba8(width: u32, height: u32, bytes: &[u8]) -> Result<Vec<u8>
 
 fn png(width: u32, height: u32, bytes: &[u8], kind: ExtendedColorType) -> Result<Vec<u8>> {
     let mut out = Vec::new();
-    PngEncoder::new(&mut out).write_image(bytes, width, height, kind).map_err(Error::Png)?;
+    PngEncoder::new(&mut out)
+        .write_image(bytes, width, height, kind)
+        .map_err(Error::Png)?;
     Ok(out)
 }
 
@@ -44,7 +46,11 @@ impl Linear {
             }
         }
         let width = pixels.len().checked_div(height as usize).unwrap_or(0) as u32;
-        Self { width, height, pixels }
+        Self {
+            width,
+            height,
+            pixels,
+        }
     }
 }
 
@@ -76,9 +82,21 @@ pub(crate) fn difference(a: &Linear, b: &Linear) -> Difference {
     let sum: f64 = pixels.as_flattened().iter().map(|value| f64::from(*value)).sum();
     let mean = sum / (pixels.as_flattened().len().max(1) as f64);
     let amplification = if max > 0.0 { 1.0 / max } else { 1.0 };
-    let amplified = pixels.iter().map(|pixel| pixel.map(|value| value * amplification)).collect();
-    let picture = Linear { width: a.width, height: a.height, pixels: amplified };
-    Difference { picture, amplification, max, mean }
+    let amplified = pixels
+        .iter()
+        .map(|pixel| pixel.map(|value| value * amplification))
+        .collect();
+    let picture = Linear {
+        width: a.width,
+        height: a.height,
+        pixels: amplified,
+    };
+    Difference {
+        picture,
+        amplification,
+        max,
+        mean,
+    }
 }
 
 #[cfg(test)]
@@ -86,13 +104,19 @@ mod tests {
     use super::*;
 
     fn picture(pixels: &[[f32; 3]]) -> Linear {
-        Linear { width: pixels.len() as u32, height: 1, pixels: pixels.to_vec() }
+        Linear {
+            width: pixels.len() as u32,
+            height: 1,
+            pixels: pixels.to_vec(),
+        }
     }
 
     #[test]
     fn pngs_hold_the_srgb_bytes_of_linear_light() {
         // 0.5 in linear light is byte 188 (0.7354 · 255 = 187.5…) by the standard's formula; NaN must be seen.
-        let png = picture(&[[0.0, 0.5, 1.0], [2.0, -1.0, f32::INFINITY], [f32::NAN, 0.0, 0.0]]).png().unwrap();
+        let png = picture(&[[0.0, 0.5, 1.0], [2.0, -1.0, f32::INFINITY], [f32::NAN, 0.0, 0.0]])
+            .png()
+            .unwrap();
         let read = image::load_from_memory(&png).unwrap().to_rgb8();
         let pixels: Vec<[u8; 3]> = read.pixels().map(|pixel| pixel.0).collect();
         assert_eq!(pixels, [[0, 188, 255], [255, 0, 255], [255, 0, 255]]);
@@ -100,7 +124,10 @@ mod tests {
 
     #[test]
     fn a_difference_is_amplified_to_white() {
-        let difference = difference(&picture(&[[0.5; 3], [0.0; 3]]), &picture(&[[0.25, 0.5, 0.5], [0.0; 3]]));
+        let difference = difference(
+            &picture(&[[0.5; 3], [0.0; 3]]),
+            &picture(&[[0.25, 0.5, 0.5], [0.0; 3]]),
+        );
         assert_eq!((difference.max, difference.amplification), (0.25, 4.0));
         assert_eq!(difference.picture.pixels, [[1.0, 0.0, 0.0], [0.0; 3]]);
         assert_eq!(difference.mean, 0.25 / 6.0);

@@ -44,7 +44,10 @@ impl Stamp {
             && self.call == call
             && self.tool == tool()
             && self.read.iter().all(|(path, hash)| holds(path, hash))
-            && self.written.iter().all(|(name, hash)| holds(&folder.join(name), hash))
+            && self
+                .written
+                .iter()
+                .all(|(name, hash)| holds(&folder.join(name), hash))
     }
 
     /// Files that the earlier run of the same call wrote, that are untouched since, and that are not written any more.
@@ -52,8 +55,14 @@ impl Stamp {
         if self.call != now.call {
             return Vec::new();
         }
-        let gone = self.written.iter().filter(|(name, _)| !now.written.contains_key(*name));
-        gone.map(|(name, hash)| (folder.join(name), hash)).filter(|(path, hash)| holds(path, hash)).map(|(path, _)| path).collect()
+        let gone = self
+            .written
+            .iter()
+            .filter(|(name, _)| !now.written.contains_key(*name));
+        gone.map(|(name, hash)| (folder.join(name), hash))
+            .filter(|(path, hash)| holds(path, hash))
+            .map(|(path, _)| path)
+            .collect()
     }
 }
 
@@ -63,17 +72,28 @@ fn holds(path: &Path, hash: &str) -> bool {
 
 /// SHA-256 in hexadecimal digits.
 pub(crate) fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+    Sha256::digest(bytes)
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect()
 }
 
 /// Version, and size and time of the executable.
 pub(crate) fn tool() -> String {
     let executable = std::env::current_exe().and_then(std::fs::metadata);
     let build = executable.ok().map(|meta| {
-        let time = meta.modified().ok().and_then(|t| t.duration_since(UNIX_EPOCH).ok()).unwrap_or_default();
+        let time = meta
+            .modified()
+            .ok()
+            .and_then(|t| t.duration_since(UNIX_EPOCH).ok())
+            .unwrap_or_default();
         format!("{}@{}", meta.len(), time.as_nanos())
     });
-    format!("bossage {} {}", env!("CARGO_PKG_VERSION"), build.unwrap_or_default())
+    format!(
+        "bossage {} {}",
+        env!("CARGO_PKG_VERSION"),
+        build.unwrap_or_default()
+    )
 }
 
 #[cfg(test)]
@@ -100,8 +120,20 @@ mod tests {
         let good = stamp(folder);
         assert!(good.is_current("call", folder));
         assert!(!good.is_current("another call", folder));
-        assert!(!Stamp { tool: "older".to_owned(), ..good.clone() }.is_current("call", folder));
-        assert!(!Stamp { complete: false, ..good.clone() }.is_current("call", folder));
+        assert!(
+            !Stamp {
+                tool: "older".to_owned(),
+                ..good.clone()
+            }
+            .is_current("call", folder)
+        );
+        assert!(
+            !Stamp {
+                complete: false,
+                ..good.clone()
+            }
+            .is_current("call", folder)
+        );
         std::fs::write(folder.join("in"), "changed").unwrap();
         assert!(!good.is_current("call", folder), "an input changed");
         std::fs::write(folder.join("in"), "in").unwrap();
@@ -114,9 +146,21 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
         let old = stamp(folder);
-        let now = Stamp { written: BTreeMap::new(), ..old.clone() };
+        let now = Stamp {
+            written: BTreeMap::new(),
+            ..old.clone()
+        };
         assert_eq!(old.orphans(&now, folder), [folder.join("out.spv")]);
-        assert!(old.orphans(&Stamp { call: "other".to_owned(), ..now.clone() }, folder).is_empty());
+        assert!(
+            old.orphans(
+                &Stamp {
+                    call: "other".to_owned(),
+                    ..now.clone()
+                },
+                folder
+            )
+            .is_empty()
+        );
         std::fs::write(folder.join("out.spv"), "edited by hand").unwrap();
         assert!(old.orphans(&now, folder).is_empty());
     }
@@ -124,6 +168,9 @@ mod tests {
     #[test]
     fn sha256_is_the_standards() {
         // FIPS 180-4, the empty message.
-        assert_eq!(sha256(b""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+        assert_eq!(
+            sha256(b""),
+            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855"
+        );
     }
 }

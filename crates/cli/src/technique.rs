@@ -18,7 +18,10 @@ pub(crate) fn named(name: &str) -> Result<TechniquePin> {
     let known = NAMES.iter().find(|(known, _)| *known == name);
     known.map(|(_, technique)| *technique).ok_or_else(|| {
         let names: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
-        Error::Call(format!("unknown technique `{name}`; {}", suggestion(name, &names)))
+        Error::Call(format!(
+            "unknown technique `{name}`; {}",
+            suggestion(name, &names)
+        ))
     })
 }
 
@@ -27,7 +30,9 @@ pub(crate) fn pinned(scene: &Scene, name: &str) -> Result<Scene> {
     let technique = named(name)?;
     if scene.materials.iter().all(|material| material.height.is_none()) {
         let path = scene.path.display();
-        return Err(Error::Call(format!("{path}: no material has a height map, so technique `{name}` has nothing to work on")));
+        return Err(Error::Call(format!(
+            "{path}: no material has a height map, so technique `{name}` has nothing to work on"
+        )));
     }
     let mut scene = scene.clone();
     scene.pin_technique(technique);
@@ -43,6 +48,11 @@ mod tests {
         assert_eq!(named("none").unwrap(), TechniquePin::None);
         let error = named("paralax_offset_limitted").unwrap_err();
         assert_eq!(error.exit_code(), 2);
-        assert!(error.to_string().contains("did you mean parallax_offset_limited?"), "{error}");
+        assert!(
+            error
+                .to_string()
+                .contains("did you mean parallax_offset_limited?"),
+            "{error}"
+        );
     }
 }

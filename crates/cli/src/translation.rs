@@ -15,15 +15,26 @@ pub(crate) struct Translation {
 }
 
 /// Translates one module, given parsed.
-pub(crate) fn translate(module: &Module, shader: &Shader, targets: &[Target], options: &EmitOptions) -> Translation {
+pub(crate) fn translate(
+    module: &Module,
+    shader: &Shader,
+    targets: &[Target],
+    options: &EmitOptions,
+) -> Translation {
     let (mut emitted, mut failures) = (Vec::new(), Vec::new());
     for target in targets {
         match emit(shader, *target, options) {
             Ok(files) => emitted.push(files),
-            Err(diagnostic) => failures.push((*target, labelled(module, *target, options).unwrap_or(diagnostic))),
+            Err(diagnostic) => {
+                failures.push((*target, labelled(module, *target, options).unwrap_or(diagnostic)))
+            }
         }
     }
-    Translation { manifest: manifest(shader, options, &emitted), emitted, failures }
+    Translation {
+        manifest: manifest(shader, options, &emitted),
+        emitted,
+        failures,
+    }
 }
 
 /// The refusal again, naming the file that the user knows.
@@ -39,5 +50,8 @@ pub(crate) fn translate_all(
     options: &EmitOptions,
 ) -> Vec<Translation> {
     let pairs: Vec<_> = modules.iter().zip(shaders).collect();
-    pairs.into_par_iter().map(|(module, shader)| translate(module, shader, targets, options)).collect()
+    pairs
+        .into_par_iter()
+        .map(|(module, shader)| translate(module, shader, targets, options))
+        .collect()
 }

@@ -84,7 +84,9 @@ material = "stone"
 "#;
 
 fn png(width: u32, height: u32) -> Vec<u8> {
-    let picture = image::RgbImage::from_fn(width, height, |x, y| image::Rgb([(x * 40) as u8, (y * 40) as u8, 7]));
+    let picture = image::RgbImage::from_fn(width, height, |x, y| {
+        image::Rgb([(x * 40) as u8, (y * 40) as u8, 7])
+    });
     let mut bytes = std::io::Cursor::new(Vec::new());
     picture.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
     bytes.into_inner()
@@ -110,7 +112,9 @@ fn missing_image() {
 fn truncated_image() {
     let playground = Playground::new();
     playground.write("height.png", &png(64, 64)[..100]);
-    playground.refused("scene.toml").says(&["height.png", "truncated"]);
+    playground
+        .refused("scene.toml")
+        .says(&["height.png", "truncated"]);
 }
 
 #[test]
@@ -129,7 +133,12 @@ fn zero_sized_image() {
     bmp.extend(b"\x01\0\x18\0");
     bmp.extend([0; 24]);
     playground.write("height.bmp", &bmp);
-    playground.scene_refused("height = { map = \"height.png\"", "height = { map = \"height.bmp\"").says(&["height.bmp"]);
+    playground
+        .scene_refused(
+            "height = { map = \"height.png\"",
+            "height = { map = \"height.bmp\"",
+        )
+        .says(&["height.bmp"]);
 }
 
 #[test]
@@ -146,8 +155,16 @@ fn absurdly_large_image_names_the_limit() {
 
 /// The checksum of PNG chunks (ISO 3309), bit by bit.
 fn crc32(bytes: &[u8]) -> u32 {
-    let step = |crc: u32| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 };
-    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| step(crc)))
+    let step = |crc: u32| {
+        if crc & 1 == 1 {
+            crc >> 1 ^ 0xEDB8_8320
+        } else {
+            crc >> 1
+        }
+    };
+    !bytes.iter().fold(!0, |crc, byte| {
+        (0..8).fold(crc ^ u32::from(*byte), |crc, _| step(crc))
+    })
 }
 
 #[test]
@@ -164,8 +181,16 @@ fn numbers_that_make_no_sense() {
         ("near = 0.1", "near = -0.1", "near"),
         ("far = 10.0", "far = inf", "far"),
         ("scale = 0.04", "scale = -0.04", "scale"),
-        ("ambient = [0.1, 0.1, 0.1]", "ambient = [0.1, -0.1, 0.1]", "ambient"),
-        ("direction = [0.0, 0.0, -1.0]", "direction = [0.0, 0.0, 0.0]", "direction"),
+        (
+            "ambient = [0.1, 0.1, 0.1]",
+            "ambient = [0.1, -0.1, 0.1]",
+            "ambient",
+        ),
+        (
+            "direction = [0.0, 0.0, -1.0]",
+            "direction = [0.0, 0.0, 0.0]",
+            "direction",
+        ),
         ("size = [64, 48]", "size = [64, 0]", "size"),
     ];
     for (old, new, field) in cases {
@@ -175,7 +200,9 @@ fn numbers_that_make_no_sense() {
 
 #[test]
 fn unknown_key() {
-    Playground::new().scene_refused("fov_deg = 45.0", "fov_dge = 45.0").says(&["fov_dge", "fov_deg", "^"]);
+    Playground::new()
+        .scene_refused("fov_deg = 45.0", "fov_dge = 45.0")
+        .says(&["fov_dge", "fov_deg", "^"]);
 }
 
 #[test]
@@ -186,7 +213,9 @@ fn unknown_technique_in_a_scene() {
 
 #[test]
 fn broken_toml() {
-    Playground::new().scene_refused("fov_deg = 45.0", "fov_deg = = 45.0").says(&["^"]);
+    Playground::new()
+        .scene_refused("fov_deg = 45.0", "fov_deg = = 45.0")
+        .says(&["^"]);
 }
 
 #[test]
@@ -209,13 +238,18 @@ fn meshes_without_what_a_mesh_needs() {
 fn syntax_error_in_wgsl_has_a_caret() {
     let playground = Playground::new();
     playground.write("bad.wgsl", b"fn f() -> f32 {\n  return 1.0 +;\n}\n");
-    playground.refused("bad.wgsl").says(&["bad.wgsl:2:", "^", "return 1.0 +;"]);
+    playground
+        .refused("bad.wgsl")
+        .says(&["bad.wgsl:2:", "^", "return 1.0 +;"]);
 }
 
 #[test]
 fn type_error_in_wgsl_has_a_caret() {
     let playground = Playground::new();
-    playground.write("bad.wgsl", b"@fragment fn f() -> @location(0) vec4f {\n  let x: f32 = vec3f(1.0);\n  return vec4f(x);\n}\n");
+    playground.write(
+        "bad.wgsl",
+        b"@fragment fn f() -> @location(0) vec4f {\n  let x: f32 = vec3f(1.0);\n  return vec4f(x);\n}\n",
+    );
     playground.refused("bad.wgsl").says(&["bad.wgsl:2:", "^"]);
 }
 
@@ -248,8 +282,14 @@ fn several_wrong_shaders_are_all_shown() {
     let playground = Playground::new();
     playground.write("a.wgsl", b"fn f( {}");
     playground.write("b.wgsl", b"fn g( {}");
-    let (a, b, out) = (playground.path("a.wgsl"), playground.path("b.wgsl"), playground.path("out"));
-    bossage(&["emit", text(&a), text(&b), "-o", text(&out)]).exits(2).says(&["a.wgsl", "b.wgsl"]);
+    let (a, b, out) = (
+        playground.path("a.wgsl"),
+        playground.path("b.wgsl"),
+        playground.path("out"),
+    );
+    bossage(&["emit", text(&a), text(&b), "-o", text(&out)])
+        .exits(2)
+        .says(&["a.wgsl", "b.wgsl"]);
     assert!(!out.exists());
 }
 
@@ -259,11 +299,15 @@ fn files_that_are_no_input() {
     playground.refused("nowhere.wgsl").says(&["nowhere.wgsl"]);
     playground.refused("nowhere.toml").says(&["nowhere.toml"]);
     playground.write("a.wgls", b"");
-    playground.refused("a.wgls").says(&["a.wgls", "did you mean wgsl?"]);
+    playground
+        .refused("a.wgls")
+        .says(&["a.wgls", "did you mean wgsl?"]);
     playground.write("a.glsl", b"#version 450\nvoid main() {}\n");
     playground.refused("a.glsl").says(&["a.glsl", "--stage"]);
     playground.write("latin.wgsl", b"// \xe9t\xe9\n");
-    playground.refused("latin.wgsl").says(&["latin.wgsl", "UTF-8", "byte 3"]);
+    playground
+        .refused("latin.wgsl")
+        .says(&["latin.wgsl", "UTF-8", "byte 3"]);
     fs::create_dir(playground.path("folder.wgsl")).unwrap();
     playground.refused("folder.wgsl").says(&["folder.wgsl"]);
 }
@@ -276,8 +320,14 @@ fn two_inputs_of_one_name() {
         fs::create_dir(playground.path(folder)).unwrap();
         playground.write(&format!("{folder}/same.wgsl"), shader);
     }
-    let (a, b, out) = (playground.path("a/same.wgsl"), playground.path("b/same.wgsl"), playground.path("out"));
-    bossage(&["emit", text(&a), text(&b), "-o", text(&out)]).exits(2).says(&["a/same.wgsl", "b/same.wgsl", "same."]);
+    let (a, b, out) = (
+        playground.path("a/same.wgsl"),
+        playground.path("b/same.wgsl"),
+        playground.path("out"),
+    );
+    bossage(&["emit", text(&a), text(&b), "-o", text(&out)])
+        .exits(2)
+        .says(&["a/same.wgsl", "b/same.wgsl", "same."]);
     assert!(!out.exists());
 }
 
@@ -285,18 +335,47 @@ fn two_inputs_of_one_name() {
 fn typos_in_the_call_are_answered_with_the_right_word() {
     let cases: &[(&[&str], &[&str])] = &[
         (&["emti", "a.wgsl"], &["emti", "'emit'"]),
-        (&["emit", "a.wgsl", "-o", "x", "-t", "spriv"], &["spriv", "'spirv'"]),
-        (&["emit", "a.wgsl", "-o", "x", "--glls", "450"], &["--glls", "'--glsl'"]),
-        (&["emit", "a.wgsl", "-o", "x", "--hlsl", "7_0"], &["7_0", "5_0, 5_1, 6_0"]),
+        (
+            &["emit", "a.wgsl", "-o", "x", "-t", "spriv"],
+            &["spriv", "'spirv'"],
+        ),
+        (
+            &["emit", "a.wgsl", "-o", "x", "--glls", "450"],
+            &["--glls", "'--glsl'"],
+        ),
+        (
+            &["emit", "a.wgsl", "-o", "x", "--hlsl", "7_0"],
+            &["7_0", "5_0, 5_1, 6_0"],
+        ),
         (&["emit", "a.wgsl"], &["--output"]),
         (&["emit", "-o", "x"], &["INPUT"]),
-        (&["render", "a.toml", "-o", "x.png", "--size", "640"], &["640", "WIDTHxHEIGHT"]),
-        (&["render", "a.toml", "-o", "x.png", "--compare", "none"], &["--compare"]),
-        (&["conform", "--route", "spriv"], &["spriv", "did you mean spirv?"]),
+        (
+            &["render", "a.toml", "-o", "x.png", "--size", "640"],
+            &["640", "WIDTHxHEIGHT"],
+        ),
+        (
+            &["render", "a.toml", "-o", "x.png", "--compare", "none"],
+            &["--compare"],
+        ),
+        (
+            &["conform", "--route", "spriv"],
+            &["spriv", "did you mean spirv?"],
+        ),
         (&["conform", "--shard", "3/2"], &["3/2", "I/N"]),
-        (&["conform", "paralax_ofset"], &["paralax_ofset", "did you mean parallax_offset?"]),
-        (&["bake", "a.png", "-o", "x", "--scale", "nan"], &["nan", "finite"]),
-        (&["bake", "a.png", "-o", "x", "--normal", "forward", "--edge", "wrap"], &["--edge", "flat"]),
+        (
+            &["conform", "paralax_ofset"],
+            &["paralax_ofset", "did you mean parallax_offset?"],
+        ),
+        (
+            &["bake", "a.png", "-o", "x", "--scale", "nan"],
+            &["NaN", "finite"],
+        ),
+        (
+            &[
+                "bake", "a.png", "-o", "x", "--normal", "forward", "--edge", "wrap",
+            ],
+            &["--edge", "flat"],
+        ),
         (&["completions", "bsh"], &["bsh", "'bash'"]),
     ];
     let before = entries(Path::new("."));
@@ -311,10 +390,25 @@ fn unknown_technique_on_the_command_line() {
     let scene = repository("examples/brick_wall.toml");
     let out = tempfile::tempdir().unwrap();
     let picture = out.path().join("x.png");
-    let run = bossage(&["render", text(&scene), "-o", text(&picture), "--technique", "paralax_offset"]);
-    run.exits(2).says(&["paralax_offset", "did you mean parallax_offset?"]);
-    let scene = repository("examples/nothing.toml");
-    let run = bossage(&["render", text(&scene), "-o", text(&picture), "--technique", "parallax_offset"]);
+    let run = bossage(&[
+        "render",
+        text(&scene),
+        "-o",
+        text(&picture),
+        "--technique",
+        "paralax_offset",
+    ]);
+    run.exits(2)
+        .says(&["paralax_offset", "did you mean parallax_offset?"]);
+    let scene = repository("examples/bumped_cube.toml");
+    let run = bossage(&[
+        "render",
+        text(&scene),
+        "-o",
+        text(&picture),
+        "--technique",
+        "parallax_offset",
+    ]);
     run.exits(2).says(&["no material has a height map"]);
     assert!(entries(out.path()).is_empty());
 }
@@ -323,7 +417,11 @@ fn unknown_technique_on_the_command_line() {
 fn a_shader_folder_that_is_none() {
     let playground = Playground::new();
     let (scene, nowhere) = (playground.path("scene.toml"), playground.path("nowhere"));
-    bossage(&["plan", text(&scene), "--shader-dir", text(&nowhere)]).exits(2).says(&["nowhere"]);
+    bossage(&["plan", text(&scene), "--shader-dir", text(&nowhere)])
+        .exits(2)
+        .says(&["nowhere"]);
     fs::create_dir(&nowhere).unwrap();
-    bossage(&["plan", text(&scene), "--shader-dir", text(&nowhere)]).exits(2).says(&["nowhere"]);
+    bossage(&["plan", text(&scene), "--shader-dir", text(&nowhere)])
+        .exits(2)
+        .says(&["nowhere"]);
 }

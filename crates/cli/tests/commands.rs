@@ -12,14 +12,22 @@ fn parsed(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error} in:\n{text}"))
 }
 
+#[expect(clippy::print_stderr, reason = "a skipped test says why")]
+fn say(line: &str) {
+    eprintln!("{line}");
+}
+
 /// Whether this machine has an adapter. Where a run must have one, `BOSSAGE_REQUIRE` names it, and going without fails.
 fn has_adapter() -> bool {
     let report = parsed(&bossage(&["doctor", "--json"]).exits(0).stdout);
     let found = !report["adapters"].as_array().unwrap().is_empty();
     let required = std::env::var("BOSSAGE_REQUIRE").unwrap_or_default();
-    assert!(found || !required.contains("lavapipe"), "BOSSAGE_REQUIRE names an adapter, and none is here");
+    assert!(
+        found || !required.contains("lavapipe"),
+        "BOSSAGE_REQUIRE names an adapter, and none is here"
+    );
     if !found {
-        eprintln!("SKIP: no adapter; {}", report["how_to_get_an_adapter"]);
+        say(&format!("SKIP: no adapter; {}", report["how_to_get_an_adapter"]));
     }
     found
 }
@@ -28,8 +36,14 @@ fn has_adapter() -> bool {
 fn plan_says_why() {
     let scene = repository("examples/brick_wall.toml");
     let table = bossage(&["plan", text(&scene)]).exits(0).stdout;
-    assert!(table.contains("material bricks: technique parallax_offset"), "{table}");
-    assert!(table.contains("kept     relief") && table.contains("dropped  light_loop"), "{table}");
+    assert!(
+        table.contains("material bricks: technique parallax_offset"),
+        "{table}"
+    );
+    assert!(
+        table.contains("kept     relief") && table.contains("dropped  light_loop"),
+        "{table}"
+    );
     let plan = parsed(&bossage(&["plan", text(&scene), "--json"]).exits(0).stdout);
     assert_eq!(plan["schema"], 1);
     let material = &plan["materials"][0];
@@ -41,7 +55,11 @@ fn plan_says_why() {
         assert!(["kept", "dropped"].contains(&effect["state"].as_str().unwrap()));
     }
     for key in ["error_texels_p99", "error_px_p99", "ops", "fetches"] {
-        assert!(material["predicted"][key].is_number(), "{key}: {}", material["predicted"]);
+        assert!(
+            material["predicted"][key].is_number(),
+            "{key}: {}",
+            material["predicted"]
+        );
     }
 }
 
@@ -59,7 +77,10 @@ fn doctor_names_every_tool_with_a_way_to_get_it() {
         }
     }
     let without = bossage_without_adapter(&["doctor"]).exits(0).stdout;
-    assert!(without.contains("DISABLED  no adapter") && without.contains("mesa-vulkan-drivers"), "{without}");
+    assert!(
+        without.contains("DISABLED  no adapter") && without.contains("mesa-vulkan-drivers"),
+        "{without}"
+    );
 }
 
 #[test]
@@ -83,11 +104,27 @@ fn check_passes_good_shaders_and_fails_bad_ones() {
 
     let bad = folder.path().join("bad.wgsl");
     fs::write(&bad, "fn f() -> f32 { return 1u; }").unwrap();
-    let run = bossage(&["check", text(&good), text(&bad), "--json", "--cache", text(&cache)]).exits(2);
+    let run = bossage(&[
+        "check",
+        text(&good),
+        text(&bad),
+        "--json",
+        "--cache",
+        text(&cache),
+    ])
+    .exits(2);
     let report = parsed(&run.stdout);
-    assert_eq!(report["inputs"][0]["ok"], true, "the good one is checked all the same");
+    assert_eq!(
+        report["inputs"][0]["ok"], true,
+        "the good one is checked all the same"
+    );
     assert_eq!(report["inputs"][1]["ok"], false);
-    assert!(report["inputs"][1]["error"].as_str().unwrap().contains("bad.wgsl:1:"));
+    assert!(
+        report["inputs"][1]["error"]
+            .as_str()
+            .unwrap()
+            .contains("bad.wgsl:1:")
+    );
 
     // A compute shader cannot be expressed in OpenGL 3.3: the input is right, the check fails.
     let compute = folder.path().join("compute.wgsl");
@@ -100,7 +137,17 @@ fn check_passes_good_shaders_and_fails_bad_ones() {
 fn completions_know_every_command() {
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let script = bossage(&["completions", shell]).exits(0).stdout;
-        for word in ["demo", "plan", "emit", "check", "conform", "render", "bake", "doctor", "shader-dir"] {
+        for word in [
+            "demo",
+            "plan",
+            "emit",
+            "check",
+            "conform",
+            "render",
+            "bake",
+            "doctor",
+            "shader-dir",
+        ] {
             assert!(script.contains(word), "{shell} does not complete {word}");
         }
     }
@@ -112,10 +159,14 @@ fn without_an_adapter_render_and_conform_exit_with_3_and_say_how_to_get_one() {
     let scene = repository("examples/brick_wall.toml");
     let picture = folder.path().join("wall.png");
     let how = ["no Vulkan adapter", "mesa-vulkan-drivers"];
-    bossage_without_adapter(&["render", text(&scene), "-o", text(&picture)]).exits(3).says(&how);
+    bossage_without_adapter(&["render", text(&scene), "-o", text(&picture)])
+        .exits(3)
+        .says(&how);
     bossage_without_adapter(&["conform", "dot3"]).exits(3).says(&how);
     let height = repository("examples/textures/bricks_height.png");
-    bossage_without_adapter(&["bake", text(&height), "-o", text(folder.path()), "--gpu"]).exits(3).says(&how);
+    bossage_without_adapter(&["bake", text(&height), "-o", text(folder.path()), "--gpu"])
+        .exits(3)
+        .says(&how);
     assert!(entries(folder.path()).is_empty());
 }
 
@@ -133,7 +184,12 @@ fn the_demo_goes_on_without_an_adapter() {
     let out = folder.path().join("demo");
     let run = bossage_without_adapter(&["demo", "-o", text(&out)]).exits(0);
     assert!(run.stdout.contains("picture: none"), "{}", run.stdout);
-    assert!(run.stdout.ends_with(&format!("report:  {}\n", out.join("report.html").display())), "{}", run.stdout);
+    assert!(
+        run.stdout
+            .ends_with(&format!("report:  {}\n", out.join("report.html").display())),
+        "{}",
+        run.stdout
+    );
     let page = fs::read_to_string(out.join("report.html")).unwrap();
     assert!(page.contains("left out: no Vulkan adapter"));
     assert!(out.join("shaders/manifest.json").exists());
@@ -149,17 +205,40 @@ fn the_demo_names_a_picture_and_a_page_that_stands_alone() {
     let out = folder.path().join("demo");
     let run = bossage(&["demo", "-o", text(&out)]).exits(0);
     let picture = out.join("brick_wall.png");
-    assert_eq!(run.stdout, format!("picture: {}\nreport:  {}\n", picture.display(), out.join("report.html").display()));
+    assert_eq!(
+        run.stdout,
+        format!(
+            "picture: {}\nreport:  {}\n",
+            picture.display(),
+            out.join("report.html").display()
+        )
+    );
     assert_is_a_picture(&picture, 640, 480);
     let page = fs::read_to_string(out.join("report.html")).unwrap();
-    for part in ["SPIR-V", "HLSL", "MSL", "GLSL", "WGSL", "parallax_offset", "data:image/png;base64,", "spirv-val"] {
+    for part in [
+        "SPIR-V",
+        "HLSL",
+        "MSL",
+        "GLSL",
+        "WGSL",
+        "parallax_offset",
+        "data:image/png;base64,",
+        "spirv-val",
+    ] {
         assert!(page.contains(part), "{part} is missing");
     }
     for outside in ["src=\"http", "<script", "@import", "url("] {
         assert!(!page.contains(outside), "{outside} reaches out of the page");
     }
-    for link in page.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
-        let target = link.strip_prefix('#').map_or_else(|| out.join(link).exists(), |id| page.contains(&format!("id=\"{id}\"")));
+    for link in page
+        .split("href=\"")
+        .skip(1)
+        .filter_map(|rest| rest.split('"').next())
+    {
+        let target = link.strip_prefix('#').map_or_else(
+            || out.join(link).exists(),
+            |id| page.contains(&format!("id=\"{id}\"")),
+        );
         assert!(target, "the link to {link} leads nowhere");
     }
 }
@@ -170,7 +249,10 @@ fn assert_is_a_picture(path: &Path, width: u32, height: u32) {
     assert_eq!(picture.dimensions(), (width, height));
     let colours: std::collections::BTreeSet<[u8; 3]> = picture.pixels().map(|pixel| pixel.0).collect();
     assert!(colours.len() > 1000, "only {} colours", colours.len());
-    assert!(!colours.contains(&[255, 0, 255]), "there are pixels that are not numbers");
+    assert!(
+        !colours.contains(&[255, 0, 255]),
+        "there are pixels that are not numbers"
+    );
 }
 
 #[test]
@@ -180,25 +262,52 @@ fn render_draws_in_the_size_asked_for_and_compares() {
     }
     let folder = tempfile::tempdir().unwrap();
     let scene = repository("examples/brick_wall.toml");
-    let (plain, compared) = (folder.path().join("plain.png"), folder.path().join("compared.png"));
+    let (plain, compared) = (
+        folder.path().join("plain.png"),
+        folder.path().join("compared.png"),
+    );
     bossage(&["render", text(&scene), "-o", text(&plain), "--size", "160x120"]).exits(0);
     assert_is_a_picture(&plain, 160, 120);
-    let call =
-        ["render", text(&scene), "-o", text(&compared), "--size", "160x120", "--compare", "none,parallax_offset_limited"];
+    let call = [
+        "render",
+        text(&scene),
+        "-o",
+        text(&compared),
+        "--size",
+        "160x120",
+        "--compare",
+        "none,parallax_offset_limited",
+    ];
     bossage(&call).exits(0).says(&["max 0.", "mean 0."]);
     // Three pictures and two gaps of four pixels.
     assert_is_a_picture(&compared, 3 * 160 + 2 * 4, 120);
-    let same = ["render", text(&scene), "-o", text(&compared), "--size", "160x120", "--compare", "none,none"];
+    let same = [
+        "render",
+        text(&scene),
+        "-o",
+        text(&compared),
+        "--size",
+        "160x120",
+        "--compare",
+        "none,none",
+    ];
     bossage(&same).exits(0).says(&["max 0.000000, mean 0.000000"]);
 }
 
+/// Both sides do the same operations in the same order, and multiply and add alike. WGSL lets `sqrt` be off by 4.5 ulp
+/// (2 of `inverseSqrt`, 2.5 of the division) and `/` by 2.5; the processor's are off by 0.5 each: together 8 ulp at most, or
+/// 8 · 2⁻²³ of a component of at most 1. A byte is 127.5 times that component, truncated, so it can differ, by one, only
+/// within 127.5 · 8 · 2⁻²³ of an integer: for 2.5e-4 of all values, if they are spread evenly.
 #[test]
 fn bakes_are_the_same_on_both_sides() {
+    const SHARE: f64 = 2.0 * 127.5 * 8.0 / 8_388_608.0;
     let folder = tempfile::tempdir().unwrap();
     let height = repository("examples/textures/bricks_height.png");
     let variants: &[&[&str]] = &[
         &["--normal", "central"],
-        &["--normal", "central", "--codec", "biased", "--edge", "mirror", "--scale", "0.1"],
+        &[
+            "--normal", "central", "--codec", "biased", "--edge", "mirror", "--scale", "0.1",
+        ],
         &["--normal", "central", "--edge", "clamp"],
         &["--normal", "forward"],
     ];
@@ -208,12 +317,34 @@ fn bakes_are_the_same_on_both_sides() {
             let out = folder.path().join(format!("{index}{name}"));
             let call = [&["bake", text(&height), "-o", text(&out)], *variant, more].concat();
             bossage(&call).exits(0);
-            fs::read(out.join("bricks_height_normal.png")).unwrap()
+            image::open(out.join("bricks_height_normal.png"))
+                .unwrap()
+                .to_rgba8()
+                .into_raw()
         };
         let cpu = bake("cpu", &[]);
-        assert!(image::load_from_memory(&cpu).unwrap().to_rgba8().pixels().any(|pixel| pixel.0[0] != pixel.0[1]));
+        assert!(
+            cpu.chunks(4).any(|texel| texel[0] != texel[1]),
+            "{variant:?}: red and green are the same"
+        );
         if adapter {
-            assert!(bake("gpu", &["--gpu"]) == cpu, "{variant:?}: the adapter bakes other bytes");
+            let gpu = bake("gpu", &["--gpu"]);
+            assert_eq!(gpu.len(), cpu.len());
+            let apart: Vec<u8> = gpu
+                .iter()
+                .zip(&cpu)
+                .map(|(a, b)| a.abs_diff(*b))
+                .filter(|step| *step > 0)
+                .collect();
+            let share = apart.len() as f64 / cpu.len() as f64;
+            assert!(
+                apart.iter().all(|step| *step == 1),
+                "{variant:?}: bytes differ by more than one"
+            );
+            assert!(
+                share <= SHARE,
+                "{variant:?}: {share} of all bytes differ, not {SHARE}"
+            );
         }
     }
 }
@@ -221,20 +352,38 @@ fn bakes_are_the_same_on_both_sides() {
 #[test]
 fn conform_lists_runs_and_reports() {
     let list = bossage(&["conform", "--list", "dot3"]).exits(0).stdout;
-    assert!(list.lines().count() >= 3 && list.lines().all(|line| line.starts_with("dot3/")), "{list}");
+    assert!(
+        list.lines().count() >= 3 && list.lines().all(|line| line.starts_with("dot3/")),
+        "{list}"
+    );
     if !has_adapter() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let (json, junit, html) =
-        (folder.path().join("r.json"), folder.path().join("r.xml"), folder.path().join("deep/r.html"));
-    let call =
-        ["conform", "dot3", "--json", text(&json), "--junit", text(&junit), "--html", text(&html), "--adapter", "lavapipe"];
+    let (json, junit, html) = (
+        folder.path().join("r.json"),
+        folder.path().join("r.xml"),
+        folder.path().join("deep/r.html"),
+    );
+    let call = [
+        "conform",
+        "dot3",
+        "--json",
+        text(&json),
+        "--junit",
+        text(&junit),
+        "--html",
+        text(&html),
+        "--adapter",
+        "lavapipe",
+    ];
     bossage(&call).exits(0);
     let report = parsed(&fs::read_to_string(&json).unwrap());
     assert_eq!(report["totals"]["fail"], 0);
     let case = &report["cases"][0];
-    for key in ["id", "route", "adapter", "basis", "outputs", "verdict", "worst", "rerun"] {
+    for key in [
+        "id", "route", "adapter", "basis", "outputs", "verdict", "worst", "rerun",
+    ] {
         assert!(case.get(key).is_some(), "{key} is missing in {case}");
     }
     assert!(fs::read_to_string(&junit).unwrap().contains("<testsuite"));
@@ -243,10 +392,17 @@ fn conform_lists_runs_and_reports() {
     // The command that a report gives for running a case again is one that works.
     let rerun = case["rerun"].as_str().unwrap().strip_prefix("bossage ").unwrap();
     let script = format!("\"$0\" {rerun} --json -");
-    let output = std::process::Command::new("sh").args(["-c", &script, env!("CARGO_BIN_EXE_bossage")]).output().unwrap();
+    let output = std::process::Command::new("sh")
+        .args(["-c", &script, env!("CARGO_BIN_EXE_bossage")])
+        .output()
+        .unwrap();
     let again = parsed(&tool::Run::from(output).exits(0).stdout);
-    let ids: Vec<_> = again["cases"].as_array().unwrap().iter().map(|case| &case["id"]).collect();
-    assert_eq!(ids, [&case["id"]]);
+    let again = again["cases"].as_array().unwrap();
+    assert!(
+        again
+            .iter()
+            .any(|again| again["id"] == case["id"] && again["verdict"] == case["verdict"])
+    );
 }
 
 #[test]
@@ -255,5 +411,7 @@ fn a_report_that_cannot_be_written_is_found_before_the_work_is_done() {
     let file = folder.path().join("file");
     fs::write(&file, "").unwrap();
     let report = file.join("r.json");
-    bossage(&["conform", "dot3", "--json", text(&report)]).exits(2).says(&["r.json"]);
+    bossage(&["conform", "dot3", "--json", text(&report)])
+        .exits(2)
+        .says(&["r.json"]);
 }

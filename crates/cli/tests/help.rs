@@ -7,13 +7,26 @@ mod tool;
 use tool::bossage;
 
 /// The commands, and the empty one.
-const COMMANDS: &[&str] =
-    &["", "demo", "plan", "emit", "check", "conform", "render", "bake", "doctor", "completions"];
+const COMMANDS: &[&str] = &[
+    "",
+    "demo",
+    "plan",
+    "emit",
+    "check",
+    "conform",
+    "render",
+    "bake",
+    "doctor",
+    "completions",
+];
 
 #[test]
 fn help_of_every_command() {
     for command in COMMANDS {
-        let arguments: Vec<&str> = [*command, "--help"].into_iter().filter(|word| !word.is_empty()).collect();
+        let arguments: Vec<&str> = [*command, "--help"]
+            .into_iter()
+            .filter(|word| !word.is_empty())
+            .collect();
         let run = bossage(&arguments);
         assert_eq!(run.code, 0);
         assert_eq!(run.stderr, "", "help is a result: it goes to standard output");
@@ -30,7 +43,11 @@ fn help_of_every_command() {
 #[test]
 fn no_command_is_left_out() {
     let help = bossage(&["--help"]).stdout;
-    let commands = help.split("Commands:").nth(1).and_then(|rest| rest.split("Options:").next()).unwrap();
+    let commands = help
+        .split("Commands:")
+        .nth(1)
+        .and_then(|rest| rest.split("Options:").next())
+        .unwrap();
     let listed: Vec<&str> = commands
         .lines()
         .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
@@ -42,5 +59,8 @@ fn no_command_is_left_out() {
 
 #[test]
 fn version_is_the_packages() {
-    assert_eq!(bossage(&["--version"]).stdout, format!("bossage {}\n", env!("CARGO_PKG_VERSION")));
+    assert_eq!(
+        bossage(&["--version"]).stdout,
+        format!("bossage {}\n", env!("CARGO_PKG_VERSION"))
+    );
 }

@@ -26,7 +26,12 @@ pub(crate) struct Bake {
     #[arg(long, value_name = "MODE")]
     pub(crate) edge: Option<EdgeName>,
     /// How far height 1 lies above height 0, in widths of the image (texels are square)
-    #[arg(long, value_name = "WIDTHS", default_value = "0.04", allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "WIDTHS",
+        default_value = "0.04",
+        allow_negative_numbers = true
+    )]
     pub(crate) scale: f32,
     /// The channel of the image that holds the height
     #[arg(long, value_name = "CHANNEL", default_value = "red")]

@@ -15,7 +15,13 @@ pub(crate) struct Emit {
     #[command(flatten)]
     pub(crate) inputs: Inputs,
     /// The languages to write
-    #[arg(short, long, value_name = "LANGUAGES", value_delimiter = ',', default_value = "spirv,hlsl,msl,glsl,wgsl")]
+    #[arg(
+        short,
+        long,
+        value_name = "LANGUAGES",
+        value_delimiter = ',',
+        default_value = "spirv,hlsl,msl,glsl,wgsl"
+    )]
     pub(crate) target: Vec<TargetName>,
     /// Where the files and manifest.json go
     #[arg(short, long, value_name = "DIR")]

@@ -105,8 +105,14 @@ mod tests {
     fn every_command_has_an_example() {
         for command in super::Cli::command().get_subcommands() {
             let name = command.get_name();
-            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
-            assert!(help.contains(&format!("  bossage {name}")), "{name} shows no example of itself: {help:?}");
+            let help = command
+                .get_after_help()
+                .map(ToString::to_string)
+                .unwrap_or_default();
+            assert!(
+                help.contains(&format!("  bossage {name}")),
+                "{name} shows no example of itself: {help:?}"
+            );
         }
     }
 }

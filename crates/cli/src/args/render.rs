@@ -23,8 +23,8 @@ pub(crate) struct Render {
     #[arg(long, value_name = "WxH")]
     pub(crate) size: Option<Size>,
     /// Draw two techniques side by side, and their difference, amplified
-    #[arg(long, value_name = "A,B", value_delimiter = ',', num_args = 2, conflicts_with = "technique")]
-    pub(crate) compare: Option<Vec<String>>,
+    #[arg(long, value_name = "A,B", conflicts_with = "technique")]
+    pub(crate) compare: Option<Pair>,
     /// Draw on the first adapter whose name contains this
     #[arg(long, value_name = "ADAPTER")]
     pub(crate) adapter: Option<String>,
@@ -37,6 +37,21 @@ pub(crate) struct Size {
     pub(crate) height: u32,
 }
 
+/// Two techniques to compare.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Pair(pub(crate) [String; 2]);
+
+impl FromStr for Pair {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text.split(',').collect::<Vec<_>>().as_slice() {
+            [a, b] if !a.is_empty() && !b.is_empty() => Ok(Self([*a, *b].map(str::to_owned))),
+            _ => Err("name two techniques with a comma between, for example none,parallax_offset".to_owned()),
+        }
+    }
+}
+
 /// The largest picture side that `render` draws; every adapter of interest can do it.
 pub(crate) const MAX_SIDE: u32 = 8192;
 
@@ -44,7 +59,9 @@ impl FromStr for Size {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+        let sides = text
+            .split_once(['x', 'X'])
+            .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
         match sides {
             Some((width, height)) if (1..=MAX_SIDE).contains(&width) && (1..=MAX_SIDE).contains(&height) => {
                 Ok(Self { width, height })
@@ -57,13 +74,37 @@ impl FromStr for Size {
 
 #[cfg(test)]
 mod tests {
-    use super::Size;
+    use super::{Pair, Size};
+
+    #[test]
+    fn pairs_are_two_names() {
+        assert_eq!("a,b".parse(), Ok(Pair(["a".to_owned(), "b".to_owned()])));
+        for wrong in ["", "a", "a,", ",b", "a,b,c"] {
+            assert!(wrong.parse::<Pair>().is_err(), "{wrong} is no pair");
+        }
+    }
 
     #[test]
     fn sizes_are_width_x_height() {
-        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+        assert_eq!(
+            "640x480".parse(),
+            Ok(Size {
+                width: 640,
+                height: 480
+            })
+        );
         assert_eq!("1X1".parse(), Ok(Size { width: 1, height: 1 }));
-        for wrong in ["", "640", "640x", "x480", "0x480", "640x8193", "-1x2", "1.5x2", "640x480x3"] {
+        for wrong in [
+            "",
+            "640",
+            "640x",
+            "x480",
+            "0x480",
+            "640x8193",
+            "-1x2",
+            "1.5x2",
+            "640x480x3",
+        ] {
             assert!(wrong.parse::<Size>().is_err(), "{wrong} is no size");
         }
     }

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use bossage_assets::{
-    Channel, EdgeMode, HeightField, NormalCodec, NormalMap, height_to_normal, height_to_normal_forward, load_image,
+    Channel, EdgeMode, HeightField, NormalCodec, NormalMap, height_to_normal, height_to_normal_forward,
+    load_image,
 };
 
 use crate::Verdict;
@@ -11,26 +12,45 @@ use crate::args::Global;
 use crate::args::bake::{Bake, ChannelName, CodecName, EdgeName, NormalKind};
 use crate::console::{self, Console};
 use crate::error::{Error, Result};
-use crate::picture;
 use crate::output::write_whole;
+use crate::picture;
 
 pub(crate) fn run(args: &Bake, global: &Global, console: Console) -> Result<Verdict> {
     check_flags(args)?;
     let field = HeightField::from_image(&load_image(&args.height)?, channel(args.channel))?;
     let (low, high) = field.range();
-    console.note(format_args!("{}: {} x {}, heights {low} to {high}", args.height.display(), field.width, field.height));
-    let map = if args.gpu { super::bake_gpu::bake(args, &field, global)? } else { bake(args, &field)? };
+    console.note(format_args!(
+        "{}: {} x {}, heights {low} to {high}",
+        args.height.display(),
+        field.width,
+        field.height
+    ));
+    let map = if args.gpu {
+        super::bake_gpu::bake(args, &field, global)?
+    } else {
+        bake(args, &field)?
+    };
     let path = output_path(args);
-    write_whole(&path, picture::png_rgba8(map.width, map.height, map.texels.as_flattened())?)?;
+    write_whole(
+        &path,
+        picture::png_rgba8(map.width, map.height, map.texels.as_flattened())?,
+    )?;
     console::print(&format!("{}\n", path.display()))?;
     Ok(Verdict::Fine)
 }
 
 /// The published forward bake has one codec and a flat border: flags that ask for something else are refused.
 fn check_flags(args: &Bake) -> Result<()> {
-    let refuse = |flag: &str, why: &str| Err(Error::Call(format!("--normal forward does not take {flag}: {why}")));
+    let refuse = |flag: &str, why: &str| {
+        Err(Error::Call(format!(
+            "--normal forward does not take {flag}: {why}"
+        )))
+    };
     if !args.scale.is_finite() {
-        return Err(Error::Call(format!("--scale {}: a finite number is needed", args.scale)));
+        return Err(Error::Call(format!(
+            "--scale {}: a finite number is needed",
+            args.scale
+        )));
     }
     match args.normal {
         NormalKind::Forward if args.edge.is_some() => refuse("--edge", "as published, its border is flat"),
@@ -44,7 +64,10 @@ fn check_flags(args: &Bake) -> Result<()> {
 fn bake(args: &Bake, field: &HeightField) -> Result<NormalMap> {
     match args.normal {
         NormalKind::Central => Ok(height_to_normal::bake(field, &central(args, field)?)),
-        NormalKind::Forward => Ok(height_to_normal_forward::bake(field, texels_per_step(args, field))),
+        NormalKind::Forward => Ok(height_to_normal_forward::bake(
+            field,
+            texels_per_step(args, field),
+        )),
     }
 }
 

@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 
 use bossage_assets::{EdgeMode, HeightField, NormalCodec, NormalMap};
-use bossage_runner::{AdapterSelector, BufferData, Code, ComputeJob, Device, Resources, Shader as Stage, TextureData};
+use bossage_runner::{
+    AdapterSelector, BufferData, Code, ComputeJob, Device, Resources, Shader as Stage, TextureData,
+};
 use bossage_shaders::Kernel;
-use bossage_translate::{EmitOptions, Shader, Source, manifest};
 
 use crate::args::Global;
 use crate::args::bake::{Bake, NormalKind};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::{inputs, run};
 
 /// Invocations of a workgroup along each axis, as the kernels declare.
@@ -19,25 +20,35 @@ pub(super) fn bake(args: &Bake, field: &HeightField, global: &Global) -> Result<
     let (kernel, uniforms, codec) = kernel(args, field)?;
     let (library, _) = inputs::library(global)?;
     let assembled = library.assemble_kernel(kernel)?;
-    let shader = Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl.clone())).map_err(|d| Error::Shaders(vec![d]))?;
-    let entries = manifest(&shader, &EmitOptions::default(), &[]).entries;
-    let entry = entries.first().ok_or_else(|| Error::Call(format!("{} has no entry point", assembled.name)))?;
+    let entry = inputs::entry(&assembled)?;
     let height_map = TextureData::r32f(field.width, field.height, &field.texels);
     let texels = BufferData::Output(field.texels.len() * 4);
     let job = ComputeJob {
         name: &assembled.name,
-        shader: Stage { code: Code::Wgsl(&assembled.wgsl), entry },
+        shader: Stage {
+            code: Code::Wgsl(&assembled.wgsl),
+            entry: &entry,
+        },
         resources: Resources {
             uniforms,
             buffers: BTreeMap::from([("texels".to_owned(), texels)]),
             textures: BTreeMap::from([("height_map".to_owned(), &height_map)]),
             ..Resources::default()
         },
-        workgroups: [field.width.div_ceil(WORKGROUP_SIDE), field.height.div_ceil(WORKGROUP_SIDE), 1],
+        workgroups: [
+            field.width.div_ceil(WORKGROUP_SIDE),
+            field.height.div_ceil(WORKGROUP_SIDE),
+            1,
+        ],
     };
     let output = job.run(&Device::open(&AdapterSelector::Any)?)?;
     let texels = output.words("texels").into_iter().map(u32::to_le_bytes).collect();
-    Ok(NormalMap { width: field.width, height: field.height, codec, texels })
+    Ok(NormalMap {
+        width: field.width,
+        height: field.height,
+        codec,
+        texels,
+    })
 }
 
 type Uniforms = BTreeMap<String, Vec<f32>>;
@@ -57,7 +68,11 @@ fn kernel(args: &Bake, field: &HeightField) -> Result<(Kernel, Uniforms, NormalC
         NormalKind::Forward => {
             let scale = run::bake::texels_per_step(args, field);
             let uniforms = BTreeMap::from([uniform("height_scale", vec![scale])]);
-            Ok((Kernel::HeightToNormalForwardPublished, uniforms, NormalCodec::Biased))
+            Ok((
+                Kernel::HeightToNormalForwardPublished,
+                uniforms,
+                NormalCodec::Biased,
+            ))
         }
     }
 }

@@ -27,14 +27,20 @@ pub(crate) fn run(args: &check::Check, global: &Global, console: Console) -> Res
     }
     let (library, _) = inputs::library(global)?;
     let stage = args.inputs.stage.map(options::stage);
-    let checker = Checker { options: &options, validators: &validators, cache: cache_folder(args.cache.cache.as_deref()) };
+    let checker = Checker {
+        options: &options,
+        validators: &validators,
+        cache: cache_folder(args.cache.cache.as_deref()),
+    };
     let bar = console.bar(args.inputs.inputs.len() as u64, "checking");
     let mut reports = Vec::new();
     let mut wrong = Vec::new();
     for path in &args.inputs.inputs {
         bar.0.set_message(path.display().to_string());
         let mut inputs = Inputs::default();
-        let outcome = inputs.add(path, stage, &library).and_then(|()| checker.check(path, &inputs.modules));
+        let outcome = inputs
+            .add(path, stage, &library)
+            .and_then(|()| checker.check(path, &inputs.modules));
         let report = outcome.unwrap_or_else(|error| {
             let report = InputReport::wrong(path, error::chain(&error));
             wrong.push(error);
@@ -44,7 +50,15 @@ pub(crate) fn run(args: &check::Check, global: &Global, console: Console) -> Res
         bar.0.inc(1);
     }
     drop(bar);
-    answer(&Report { schema: 1, validators, inputs: reports }, wrong, args.json)
+    answer(
+        &Report {
+            schema: 1,
+            validators,
+            inputs: reports,
+        },
+        wrong,
+        args.json,
+    )
 }
 
 fn answer(report: &Report, wrong: Vec<Error>, json: bool) -> Result<Verdict> {
@@ -64,7 +78,11 @@ fn answer(report: &Report, wrong: Vec<Error>, json: bool) -> Result<Verdict> {
 /// The user's cache folder for ours, unless another is asked for. None where the system has no such thing.
 pub(crate) fn cache_folder(asked: Option<&Path>) -> Option<PathBuf> {
     let home = || std::env::home_dir().filter(|home| home.is_absolute());
-    let variable = |name: &str| std::env::var_os(name).map(PathBuf::from).filter(|path| path.is_absolute());
+    let variable = |name: &str| {
+        std::env::var_os(name)
+            .map(PathBuf::from)
+            .filter(|path| path.is_absolute())
+    };
     let users = || {
         if cfg!(windows) {
             variable("LOCALAPPDATA")
@@ -74,7 +92,9 @@ pub(crate) fn cache_folder(asked: Option<&Path>) -> Option<PathBuf> {
             variable("XDG_CACHE_HOME").or_else(|| home().map(|home| home.join(".cache")))
         }
     };
-    asked.map(Path::to_owned).or_else(|| users().map(|folder| folder.join("bossage")))
+    asked
+        .map(Path::to_owned)
+        .or_else(|| users().map(|folder| folder.join("bossage")))
 }
 
 /// Which external tools take part, one line each.
@@ -130,25 +150,49 @@ pub(crate) struct Checker<'a> {
 impl Checker<'_> {
     /// Checks the modules of one input.
     fn check(&self, path: &Path, modules: &[Module]) -> Result<InputReport> {
-        let parsed = modules.par_iter().map(|module| module.parse().map_err(|d| Error::Shaders(vec![d])));
-        let shaders: Vec<Shader> = parsed.collect::<Result<_>>()?;
+        let shaders: Vec<Shader> = modules.par_iter().map(Module::parse).collect::<Result<_>>()?;
         let translations = translate_all(modules, &shaders, &Target::ALL, self.options);
         let mut report = self.check_translations(path, &translations);
-        report.lints = modules.iter().filter_map(|module| module.parse_labelled().ok()).flat_map(|shader| lint(&shader)).collect();
+        report.lints = modules
+            .iter()
+            .filter_map(|module| module.parse_labelled().ok())
+            .flat_map(|shader| lint(&shader))
+            .collect();
         Ok(report)
     }
 
     /// Asks the external tools about everything that was emitted.
     pub(crate) fn check_translations(&self, path: &Path, translations: &[Translation]) -> InputReport {
-        let mut report = InputReport { path: path.to_owned(), ok: true, error: None, targets: BTreeMap::new(), lints: Vec::new() };
+        let mut report = InputReport {
+            path: path.to_owned(),
+            ok: true,
+            error: None,
+            targets: BTreeMap::new(),
+            lints: Vec::new(),
+        };
         for target in Target::ALL {
-            report.targets.insert(target.name(), TargetReport { emitted: true, ..TargetReport::default() });
+            report.targets.insert(
+                target.name(),
+                TargetReport {
+                    emitted: true,
+                    ..TargetReport::default()
+                },
+            );
         }
-        let emitted: Vec<_> = translations.iter().flat_map(|translation| &translation.emitted).collect();
-        let ask = |emitted: &&_| external::check(emitted, self.options, self.validators, self.cache.as_deref());
+        let emitted: Vec<_> = translations
+            .iter()
+            .flat_map(|translation| &translation.emitted)
+            .collect();
+        let ask =
+            |emitted: &&_| external::check(emitted, self.options, self.validators, self.cache.as_deref());
         let checks: Vec<Vec<Check>> = emitted.par_iter().map(ask).collect();
         for (emitted, checks) in emitted.iter().zip(checks) {
-            report.targets.entry(emitted.target.name()).or_default().checks.extend(checks);
+            report
+                .targets
+                .entry(emitted.target.name())
+                .or_default()
+                .checks
+                .extend(checks);
         }
         for (target, diagnostic) in translations.iter().flat_map(|translation| &translation.failures) {
             let entry = report.targets.entry(target.name()).or_default();
@@ -171,20 +215,28 @@ impl TargetReport {
 
     /// One line, and what failed below it.
     fn text(&self, target: &str) -> String {
-        let [pass, fail, skip] = [CheckState::Pass, CheckState::Fail, CheckState::Skip].map(|state| self.count(state));
-        let verdict = if !self.is_fine() {
-            console::bad("FAIL")
-        } else if pass == 0 {
-            console::faint("unchecked")
-        } else {
-            console::good("ok")
+        let [pass, fail, skip] =
+            [CheckState::Pass, CheckState::Fail, CheckState::Skip].map(|state| self.count(state));
+        let counts = format!("{pass} passed, {fail} failed, {skip} skipped");
+        let mut text = match (self.is_fine(), self.checks.is_empty()) {
+            (true, true) => format!(
+                "  {target:6} {}: no external compiler checks it\n",
+                console::faint("emitted")
+            ),
+            (true, false) if pass == 0 => format!("  {target:6} {}: {counts}\n", console::faint("emitted")),
+            (true, false) => format!("  {target:6} {}: {counts}\n", console::good("ok")),
+            (false, _) => format!("  {target:6} {}: {counts}\n", console::bad("FAIL")),
         };
-        let mut text = format!("  {target:6} {verdict}: {pass} passed, {fail} failed, {skip} skipped\n");
         for error in &self.errors {
             text.push_str(&indented(&error.to_string()));
         }
         for check in self.checks.iter().filter(|check| check.state == CheckState::Fail) {
-            text.push_str(&indented(&format!("{} rejects {}:\n{}", check.tool, check.file, check.message.trim_end())));
+            text.push_str(&indented(&format!(
+                "{} rejects {}:\n{}",
+                check.tool,
+                check.file,
+                check.message.trim_end()
+            )));
         }
         text
     }
@@ -192,12 +244,22 @@ impl TargetReport {
 
 impl InputReport {
     fn wrong(path: &Path, error: String) -> Self {
-        Self { path: path.to_owned(), ok: false, error: Some(error), targets: BTreeMap::new(), lints: Vec::new() }
+        Self {
+            path: path.to_owned(),
+            ok: false,
+            error: Some(error),
+            targets: BTreeMap::new(),
+            lints: Vec::new(),
+        }
     }
 
     /// The result for people.
     pub(crate) fn text(&self) -> String {
-        let verdict = if self.ok { console::good("ok") } else { console::bad("FAIL") };
+        let verdict = if self.ok {
+            console::good("ok")
+        } else {
+            console::bad("FAIL")
+        };
         let mut text = format!("{}: {verdict}\n", console::heading(self.path.display()));
         if let Some(error) = &self.error {
             text.push_str(&indented(error));
@@ -213,7 +275,12 @@ fn lint_line(lint: &Lint) -> String {
         (Some(line), Some(column)) => format!("{}:{line}:{column}", lint.file),
         _ => lint.file.clone(),
     };
-    format!("  {} {place}: {} [{}]\n", console::faint("lint"), lint.message, lint.rule)
+    format!(
+        "  {} {place}: {} [{}]\n",
+        console::faint("lint"),
+        lint.message,
+        lint.rule
+    )
 }
 
 fn indented(text: &str) -> String {

@@ -1,7 +1,7 @@
 //! `bossage conform`: execute, compare, report.
 
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use bossage_conformance::{CaseResult, Progress, Report, Route, Selection, Verdict as CaseVerdict, report};
 use bossage_runner::AdapterSelector;
@@ -19,12 +19,20 @@ pub(crate) fn run(args: &Conform, global: &Global, console: Console) -> Result<V
     let selection = selection(args)?;
     let cases = selection.cases().map_err(|error| explained(error, &selection))?;
     if args.list {
-        console::print(&cases.iter().map(|case| format!("{}\n", case.id())).collect::<String>())?;
+        console::print(
+            &cases
+                .iter()
+                .map(|case| format!("{}\n", case.id()))
+                .collect::<String>(),
+        )?;
         return Ok(Verdict::Fine);
     }
     drop(cases);
-    let files = [&args.json, &args.junit, &args.html].into_iter().flatten().filter(|path| !is_standard_output(path));
-    files.map(|path| output::check_writable(path)).collect::<Result<()>>()?;
+    let files = [&args.json, &args.junit, &args.html]
+        .into_iter()
+        .flatten()
+        .filter(|path| !is_standard_output(path));
+    files.map(PathBuf::as_path).try_for_each(output::check_writable)?;
     let (library, _) = inputs::library(global)?;
     let report = bossage_conformance::run(&selection, &library, &mut Watch::new(console))?;
     write_reports(args, &report)?;
@@ -33,7 +41,11 @@ pub(crate) fn run(args: &Conform, global: &Global, console: Console) -> Result<V
     } else {
         console::print(&text(&report))?;
     }
-    Ok(if report.is_ok() { Verdict::Fine } else { Verdict::Failed })
+    Ok(if report.is_ok() {
+        Verdict::Fine
+    } else {
+        Verdict::Failed
+    })
 }
 
 /// `-` is standard output.
@@ -60,10 +72,14 @@ fn route(name: &str) -> Result<Route> {
 }
 
 fn shard(text: &str) -> Result<(usize, usize)> {
-    let parts = text.split_once('/').and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
+    let parts = text
+        .split_once('/')
+        .and_then(|(i, n)| Some((i.parse().ok()?, n.parse().ok()?)));
     match parts {
         Some((index, count)) if (1..=count).contains(&index) => Ok((index, count)),
-        _ => Err(Error::Call(format!("--shard {text}: write it as I/N with I from 1 to N, for example 2/4"))),
+        _ => Err(Error::Call(format!(
+            "--shard {text}: write it as I/N with I from 1 to N, for example 2/4"
+        ))),
     }
 }
 
@@ -73,7 +89,11 @@ fn adapters(given: &[String]) -> Vec<String> {
         return Vec::new();
     }
     let found = bossage_runner::adapters();
-    let is_whole = |name: &str| found.iter().any(|info| AdapterSelector::named(name).matches(info));
+    let is_whole = |name: &str| {
+        found
+            .iter()
+            .any(|info| AdapterSelector::named(name).matches(info))
+    };
     given
         .iter()
         .flat_map(|text| match is_whole(text) {
@@ -85,9 +105,15 @@ fn adapters(given: &[String]) -> Vec<String> {
 
 /// A filter that finds nothing is answered with the nearest technique.
 fn explained(error: bossage_conformance::Error, selection: &Selection) -> Error {
-    let (bossage_conformance::Error::NoSuchCase { filter, .. }, Ok(all)) =
-        (&error, Selection { filter: None, shard: None, ..selection.clone() }.cases())
-    else {
+    let (bossage_conformance::Error::NoSuchCase { filter, .. }, Ok(all)) = (
+        &error,
+        Selection {
+            filter: None,
+            shard: None,
+            ..selection.clone()
+        }
+        .cases(),
+    ) else {
         return error.into();
     };
     let mut techniques: Vec<&str> = all.iter().map(|case| case.id().technique.as_str()).collect();
@@ -106,7 +132,11 @@ fn write_reports(args: &Conform, report: &Report) -> Result<()> {
         outputs.add(path.clone(), "--json", report::json::write(report)?.into_bytes())?;
     }
     if let Some(path) = &args.junit {
-        outputs.add(path.clone(), "--junit", report::junit::write(report)?.into_bytes())?;
+        outputs.add(
+            path.clone(),
+            "--junit",
+            report::junit::write(report)?.into_bytes(),
+        )?;
     }
     if let Some(path) = &args.html {
         outputs.add(path.clone(), "--html", report::html::write(report).into_bytes())?;
@@ -143,14 +173,21 @@ impl Progress for Watch {
 pub(crate) fn text(report: &Report) -> String {
     let mut text = String::new();
     for adapter in &report.environment.adapters {
-        let _ = writeln!(text, "adapter {} ({})", console::heading(&adapter.name), adapter.driver);
+        let _ = writeln!(
+            text,
+            "adapter {} ({})",
+            console::heading(&adapter.name),
+            adapter.driver
+        );
     }
     for ((technique, form), cases) in report.by_technique() {
         let name = form.map_or_else(|| technique.clone(), |form| format!("{technique} ({form})"));
         let _ = writeln!(text, "  {name:38} {}", counts(&cases));
     }
     for case in &report.cases {
-        if let (CaseVerdict::Fail | CaseVerdict::Warn | CaseVerdict::Skip, reason) = (case.verdict, &case.reason) {
+        if let (CaseVerdict::Fail | CaseVerdict::Warn | CaseVerdict::Skip, reason) =
+            (case.verdict, &case.reason)
+        {
             text.push_str(&needs_a_look(case, reason.as_deref().unwrap_or_default()));
         }
     }
@@ -173,7 +210,9 @@ pub(crate) fn text(report: &Report) -> String {
 fn counts(cases: &[&CaseResult]) -> String {
     let count = |verdict: CaseVerdict| cases.iter().filter(|case| case.verdict == verdict).count();
     let some = CaseVerdict::ALL.into_iter().filter(|verdict| count(*verdict) > 0);
-    let words: Vec<String> = some.map(|verdict| painted(verdict, &format!("{} {}", count(verdict), verdict.label()))).collect();
+    let words: Vec<String> = some
+        .map(|verdict| painted(verdict, &format!("{} {}", count(verdict), verdict.label())))
+        .collect();
     words.join(", ")
 }
 
@@ -187,7 +226,13 @@ fn painted(verdict: CaseVerdict, text: &str) -> String {
 
 fn needs_a_look(case: &CaseResult, reason: &str) -> String {
     let verdict = painted(case.verdict, case.verdict.label());
-    format!("\n{verdict}: {}\n  route {} on {}\n  {reason}\n  again: {}\n", case.id, case.route, case.adapter, case.rerun())
+    format!(
+        "\n{verdict}: {}\n  route {} on {}\n  {reason}\n  again: {}\n",
+        case.id,
+        case.route,
+        case.adapter,
+        case.rerun()
+    )
 }
 
 #[cfg(test)]
@@ -205,6 +250,11 @@ mod tests {
     #[test]
     fn a_route_has_its_name_or_a_suggestion() {
         assert_eq!(route("spirv").unwrap(), Route::Spirv);
-        assert!(route("spriv").unwrap_err().to_string().contains("did you mean spirv?"));
+        assert!(
+            route("spriv")
+                .unwrap_err()
+                .to_string()
+                .contains("did you mean spirv?")
+        );
     }
 }

@@ -71,8 +71,14 @@ impl From<&AdapterInfo> for Adapter {
 
 impl Report {
     fn text(&self) -> String {
-        let mut text = format!("bossage {} on {}, {} cores\n\n", self.version, self.platform, self.cores);
-        text.push_str(&format!("{}\n", console::heading("Adapters (conform, render, bake --gpu, demo)")));
+        let mut text = format!(
+            "bossage {} on {}, {} cores\n\n",
+            self.version, self.platform, self.cores
+        );
+        text.push_str(&format!(
+            "{}\n",
+            console::heading("Adapters (conform, render, bake --gpu, demo)")
+        ));
         for adapter in &self.adapters {
             text.push_str(&format!(
                 "{}  {} [{}, {}, {}]\n",
@@ -86,7 +92,10 @@ impl Report {
         if let Some(how) = self.how_to_get_an_adapter {
             text.push_str(&format!("{}  no adapter: {how}\n", console::faint("DISABLED")));
         }
-        text.push_str(&format!("\n{}\n", console::heading("External compilers (check, demo)")));
+        text.push_str(&format!(
+            "\n{}\n",
+            console::heading("External compilers (check, demo)")
+        ));
         text.push_str(&check::banner(&self.validators));
         let cache = self.cache.as_deref().unwrap_or("none: no home folder");
         text.push_str(&format!("\nTheir verdicts are kept in: {cache}\n"));

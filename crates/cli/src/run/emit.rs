@@ -37,7 +37,9 @@ pub(crate) struct Done {
 
 impl Done {
     pub(crate) fn failures(&self) -> impl Iterator<Item = &(Target, Diagnostic)> {
-        self.translations.iter().flat_map(|translation| &translation.failures)
+        self.translations
+            .iter()
+            .flat_map(|translation| &translation.failures)
     }
 }
 
@@ -46,13 +48,20 @@ pub(crate) fn run(args: &Emit, global: &Global, console: Console) -> Result<Verd
     let targets = options::targets(&args.target);
     let call = call(args, global, &targets, &options)?;
     let before = Stamp::load(&args.output);
-    if let Some(stamp) = before.as_ref().filter(|stamp| stamp.is_current(&call, &args.output)) {
+    if let Some(stamp) = before
+        .as_ref()
+        .filter(|stamp| stamp.is_current(&call, &args.output))
+    {
         write_depfile(args, stamp.read.keys().map(PathBuf::as_path))?;
         console.note(format_args!("{}: nothing changed", args.output.display()));
         return Ok(Verdict::Fine);
     }
     let inputs = inputs::gather(&args.inputs.inputs, args.inputs.stage.map(options::stage), global)?;
-    let job = Job { targets: &targets, options: &options, folder: &args.output };
+    let job = Job {
+        targets: &targets,
+        options: &options,
+        folder: &args.output,
+    };
     let done = job.write(&inputs, Some((call, before)))?;
     write_depfile(args, inputs.read.iter().map(PathBuf::as_path))?;
     report(&inputs, &done, &args.output, console)
@@ -74,7 +83,9 @@ fn write_depfile<'a>(args: &Emit, dependencies: impl Iterator<Item = &'a Path>) 
 fn report(inputs: &Inputs, done: &Done, folder: &Path, console: Console) -> Result<Verdict> {
     let Written { changed, unchanged } = done.written;
     let shaders = inputs.modules.len();
-    console.note(format_args!("{shaders} shaders, {changed} files written, {unchanged} unchanged"));
+    console.note(format_args!(
+        "{shaders} shaders, {changed} files written, {unchanged} unchanged"
+    ));
     console::print(&format!("{}\n", folder.join(MANIFEST).display()))?;
     let mut verdict = Verdict::Fine;
     for (target, diagnostic) in done.failures() {
@@ -121,7 +132,10 @@ impl<'a> From<&'a Planned> for SceneEntry<'a> {
             vertex: m.features.vertex().name(),
             fragment: m.features.fragment().name(),
         };
-        Self { path: &planned.scene.path, materials: planned.plan.materials.iter().map(material).collect() }
+        Self {
+            path: &planned.scene.path,
+            materials: planned.plan.materials.iter().map(material).collect(),
+        }
     }
 }
 
@@ -132,11 +146,15 @@ impl Job<'_> {
         let shaders = inputs.parse()?;
         let translations = translate_all(&inputs.modules, &shaders, self.targets, self.options);
         let files = self.files(inputs, &translations)?;
-        let complete = translations.iter().all(|translation| translation.failures.is_empty());
+        let complete = translations
+            .iter()
+            .all(|translation| translation.failures.is_empty());
         let (stamp, orphans) = match stamp {
             Some((call, before)) => {
                 let now = stamp_of(call, complete, inputs, &files)?;
-                let orphans = before.map(|before| before.orphans(&now, self.folder)).unwrap_or_default();
+                let orphans = before
+                    .map(|before| before.orphans(&now, self.folder))
+                    .unwrap_or_default();
                 (Some(now), orphans)
             }
             None => (None, Vec::new()),
@@ -145,7 +163,10 @@ impl Job<'_> {
         for orphan in orphans {
             std::fs::remove_file(&orphan).map_err(|source| Error::Write { path: orphan, source })?;
         }
-        Ok(Done { translations, written })
+        Ok(Done {
+            translations,
+            written,
+        })
     }
 
     fn commit(&self, files: Vec<File>, stamp: Option<Stamp>) -> Result<Written> {
@@ -166,21 +187,34 @@ impl Job<'_> {
             let origin = module.input.display().to_string();
             for file in translation.emitted.iter().flat_map(|emitted| &emitted.files) {
                 let mut add = |name: &str, bytes: &[u8]| {
-                    files.push(File { name: name.to_owned(), origin: origin.clone(), bytes: bytes.to_vec() });
+                    files.push(File {
+                        name: name.to_owned(),
+                        origin: origin.clone(),
+                        bytes: bytes.to_vec(),
+                    });
                 };
                 add(&file.file_name, file.contents.bytes());
                 if let Contents::Binary(bytes) = &file.contents {
-                    add(&format!("{}asm", file.file_name), listing(&file.file_name, bytes)?.as_bytes());
+                    add(
+                        &format!("{}asm", file.file_name),
+                        listing(&file.file_name, bytes)?.as_bytes(),
+                    );
                 }
             }
         }
         let text = console::json_text(&self.folder_manifest(inputs, translations))?;
-        files.push(File { name: MANIFEST.to_owned(), origin: "the manifest".to_owned(), bytes: text.into_bytes() });
+        files.push(File {
+            name: MANIFEST.to_owned(),
+            origin: "the manifest".to_owned(),
+            bytes: text.into_bytes(),
+        });
         Ok(files)
     }
 
     fn folder_manifest<'a>(&self, inputs: &'a Inputs, translations: &[Translation]) -> FolderManifest<'a> {
-        let mut manifests = translations.iter().map(|translation| translation.manifest.clone());
+        let mut manifests = translations
+            .iter()
+            .map(|translation| translation.manifest.clone());
         let empty = || Manifest {
             schema: manifest::SCHEMA,
             tools: BTreeMap::new(),
@@ -189,8 +223,13 @@ impl Job<'_> {
         };
         let mut whole = manifests.next().unwrap_or_else(empty);
         manifests.for_each(|manifest| whole.append(manifest));
-        whole.tools.insert("bossage".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
-        FolderManifest { manifest: whole, scenes: inputs.scenes.iter().map(SceneEntry::from).collect() }
+        whole
+            .tools
+            .insert("bossage".to_owned(), env!("CARGO_PKG_VERSION").to_owned());
+        FolderManifest {
+            manifest: whole,
+            scenes: inputs.scenes.iter().map(SceneEntry::from).collect(),
+        }
     }
 }
 
@@ -213,6 +252,9 @@ fn stamp_of(call: String, complete: bool, inputs: &Inputs, files: &[File]) -> Re
         call,
         complete,
         read: inputs.read.iter().map(hash).collect::<Result<_>>()?,
-        written: files.iter().map(|file| (file.name.clone(), stamp::sha256(&file.bytes))).collect(),
+        written: files
+            .iter()
+            .map(|file| (file.name.clone(), stamp::sha256(&file.bytes)))
+            .collect(),
     })
 }

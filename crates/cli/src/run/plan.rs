@@ -4,12 +4,11 @@ use std::fmt::Write;
 
 use bossage_scene::{Effect, Fact, MaterialPlan, Plan, Predicted, State};
 use bossage_shaders::{Library, Stage};
-use bossage_translate::{EmitOptions, Shader, Source, manifest};
 
 use crate::Verdict;
 use crate::args::{Global, plan};
 use crate::console;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::inputs;
 
 pub(crate) fn run(args: &plan::Plan, global: &Global) -> Result<Verdict> {
@@ -29,17 +28,19 @@ pub(crate) fn run(args: &plan::Plan, global: &Global) -> Result<Verdict> {
 pub(crate) fn add_costs(plan: &mut Plan, library: &Library) -> Result<()> {
     for permutation in plan.permutations.clone() {
         let assembled = library.assemble_surface(&permutation.features, Stage::Fragment)?;
-        let shader = Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl)).map_err(|d| Error::Shaders(vec![d]))?;
-        for entry in manifest(&shader, &EmitOptions::default(), &[]).entries {
-            plan.set_cost(&permutation.name, entry.cost.ops, entry.cost.samples + entry.cost.texture_loads);
-        }
+        let cost = inputs::entry(&assembled)?.cost;
+        plan.set_cost(&permutation.name, cost.ops, cost.samples + cost.texture_loads);
     }
     Ok(())
 }
 
 /// The plan for people.
 pub(crate) fn table(plan: &Plan) -> String {
-    let mut text = format!("{}: at most {} px of error wanted\n", plan.scene.display(), plan.budget_px);
+    let mut text = format!(
+        "{}: at most {} px of error wanted\n",
+        plan.scene.display(),
+        plan.budget_px
+    );
     for material in &plan.materials {
         text.push_str(&of_material(material));
     }
@@ -50,7 +51,10 @@ pub(crate) fn table(plan: &Plan) -> String {
 
 fn of_material(material: &MaterialPlan) -> String {
     let name = console::heading(format_args!("material {}", material.name));
-    let mut text = format!("\n{name}: technique {} ({})\n", material.technique, material.technique_by);
+    let mut text = format!(
+        "\n{name}: technique {} ({})\n",
+        material.technique, material.technique_by
+    );
     let _ = writeln!(text, "  permutation {}", material.permutation);
     for effect in &material.effects {
         text.push_str(&of_effect(effect));
@@ -64,7 +68,11 @@ fn of_effect(effect: &Effect) -> String {
         State::Kept => console::good("kept   "),
         State::Dropped => console::faint("dropped"),
     };
-    let evidence: Vec<String> = effect.evidence.iter().map(|(name, value)| format!("{name} = {}", fact(value))).collect();
+    let evidence: Vec<String> = effect
+        .evidence
+        .iter()
+        .map(|(name, value)| format!("{name} = {}", fact(value)))
+        .collect();
     let mut text = format!("  {state}  {:15}  {}\n", effect.id.as_str(), effect.reason);
     if !evidence.is_empty() {
         let _ = writeln!(text, "{:28}{}", "", evidence.join(", "));
@@ -77,9 +85,12 @@ pub(crate) fn fact(fact: &Fact) -> String {
     match fact {
         Fact::Count(count) => count.to_string(),
         Fact::Number(number) => short(*number),
-        Fact::Numbers(numbers) => numbers.iter().copied().map(short).collect::<Vec<_>>().join(" "),
+        Fact::Numbers(numbers) if !numbers.is_empty() => {
+            numbers.iter().copied().map(short).collect::<Vec<_>>().join(" ")
+        }
+        Fact::Names(names) if !names.is_empty() => names.join(" "),
+        Fact::Numbers(_) | Fact::Names(_) => "none".to_owned(),
         Fact::Text(text) => text.clone(),
-        Fact::Names(names) => names.join(" "),
     }
 }
 
@@ -94,17 +105,37 @@ pub(crate) fn short(number: f64) -> String {
     }
     let decimals = (3 - magnitude.log10().floor() as i32).clamp(0, 6) as usize;
     let text = format!("{number:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }
 
 /// The prediction in words; what is not known is left out.
 pub(crate) fn predicted(predicted: &Predicted) -> String {
     let mut parts = Vec::new();
-    parts.extend(predicted.error_px_p99.map(|error| format!("{} px of error", short(error))));
-    parts.extend(predicted.error_texels_p99.map(|error| format!("{} texels (99 % of pixels)", short(error))));
+    parts.extend(
+        predicted
+            .error_px_p99
+            .map(|error| format!("{} px of error", short(error))),
+    );
+    parts.extend(
+        predicted
+            .error_texels_p99
+            .map(|error| format!("{} texels (99 % of pixels)", short(error))),
+    );
     parts.extend(predicted.ops.map(|ops| format!("{ops} operations")));
-    parts.extend(predicted.fetches.map(|fetches| format!("{fetches} fetches a pixel")));
-    if parts.is_empty() { "nothing of it is seen".to_owned() } else { parts.join(", ") }
+    parts.extend(
+        predicted
+            .fetches
+            .map(|fetches| format!("{fetches} fetches a pixel")),
+    );
+    if parts.is_empty() {
+        "nothing of it is seen".to_owned()
+    } else {
+        parts.join(", ")
+    }
 }
 
 #[cfg(test)]

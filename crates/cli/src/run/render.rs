@@ -20,10 +20,16 @@ pub(crate) fn run(args: &Render, global: &Global, console: Console) -> Result<Ve
         scene.camera.size = [size.width, size.height];
     }
     let variants = variants(&scene, args)?;
-    let selector = args.adapter.as_deref().map_or(AdapterSelector::Any, AdapterSelector::named);
+    let selector = args
+        .adapter
+        .as_deref()
+        .map_or(AdapterSelector::Any, AdapterSelector::named);
     let device = Device::open(&selector)?;
     console.note(format_args!("{} on {}", args.scene.display(), device.info()));
-    let pictures = variants.iter().map(|scene| picture(&device, scene, &library)).collect::<Result<Vec<_>>>()?;
+    let pictures = variants
+        .iter()
+        .map(|scene| picture(&device, scene, &library))
+        .collect::<Result<Vec<_>>>()?;
     let picture = match pictures.as_slice() {
         [a, b] => compared(a, b, console),
         _ => Linear::beside(&pictures),
@@ -35,11 +41,18 @@ pub(crate) fn run(args: &Render, global: &Global, console: Console) -> Result<Ve
 
 /// The scenes to draw: as planned, with one technique, or with each of two.
 fn variants(scene: &Scene, args: &Render) -> Result<Vec<Scene>> {
-    let names: Vec<&String> = args.technique.iter().chain(args.compare.iter().flatten()).collect();
+    let names: Vec<&String> = args
+        .technique
+        .iter()
+        .chain(args.compare.iter().flat_map(|pair| &pair.0))
+        .collect();
     if names.is_empty() {
         return Ok(vec![scene.clone()]);
     }
-    names.into_iter().map(|name| technique::pinned(scene, name)).collect()
+    names
+        .into_iter()
+        .map(|name| technique::pinned(scene, name))
+        .collect()
 }
 
 /// A scene, planned and drawn.
@@ -48,7 +61,12 @@ pub(crate) fn picture(device: &Device, scene: &Scene, library: &Library) -> Resu
 }
 
 fn compared(a: &Linear, b: &Linear, console: Console) -> Linear {
-    let Difference { picture, amplification, max, mean } = difference(a, b);
+    let Difference {
+        picture,
+        amplification,
+        max,
+        mean,
+    } = difference(a, b);
     console.note(format_args!(
         "left, middle: the techniques; right: |difference| × {amplification:.4}; in linear light max {max:.6}, mean {mean:.6}"
     ));

@@ -1,6 +1,9 @@
 //! Runs the built binary the way a user does, with nothing inherited that changes what it prints.
 
-#![allow(dead_code, reason = "each test file is a program of its own and uses its part")]
+#![allow(
+    dead_code,
+    reason = "each test file is a program of its own and uses its part"
+)]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -27,7 +30,11 @@ impl Run {
     /// Asserts the exit code, showing what was printed when it is another.
     #[track_caller]
     pub(crate) fn exits(self, code: i32) -> Self {
-        assert_eq!(self.code, code, "stdout:\n{}\nstderr:\n{}", self.stdout, self.stderr);
+        assert_eq!(
+            self.code, code,
+            "stdout:\n{}\nstderr:\n{}",
+            self.stdout, self.stderr
+        );
         self
     }
 
@@ -44,7 +51,11 @@ impl Run {
 /// The command, ready for more settings.
 pub(crate) fn command(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_bossage"));
-    command.args(arguments).env("NO_COLOR", "1").env_remove("COLUMNS").env_remove("CLICOLOR_FORCE");
+    command
+        .args(arguments)
+        .env("NO_COLOR", "1")
+        .env_remove("COLUMNS")
+        .env_remove("CLICOLOR_FORCE");
     command
 }
 
@@ -57,7 +68,9 @@ pub(crate) fn bossage(arguments: &[&str]) -> Run {
 pub(crate) fn bossage_without_adapter(arguments: &[&str]) -> Run {
     let missing = "/nonexistent/icd.json";
     let mut command = command(arguments);
-    command.env("VK_ICD_FILENAMES", missing).env("VK_DRIVER_FILES", missing);
+    command
+        .env("VK_ICD_FILENAMES", missing)
+        .env("VK_DRIVER_FILES", missing);
     command.output().expect("the binary starts").into()
 }
 
@@ -75,7 +88,13 @@ pub(crate) fn text(path: &Path) -> &str {
 pub(crate) fn entries(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = std::fs::read_dir(folder)
         .expect("the folder is there")
-        .map(|entry| entry.expect("it can be listed").file_name().into_string().expect("names are UTF-8"))
+        .map(|entry| {
+            entry
+                .expect("it can be listed")
+                .file_name()
+                .into_string()
+                .expect("names are UTF-8")
+        })
         .collect();
     names.sort();
     names

@@ -7,10 +7,22 @@ use crate::output::Outputs;
 
 /// File names below the scene's folder, and what is in them: the repository's own example.
 const FILES: &[(&str, &[u8])] = &[
-    ("brick_wall.toml", include_bytes!("../../../../../examples/brick_wall.toml")),
-    ("textures/bricks_albedo.png", include_bytes!("../../../../../examples/textures/bricks_albedo.png")),
-    ("textures/bricks_height.png", include_bytes!("../../../../../examples/textures/bricks_height.png")),
-    ("textures/bricks_normal.png", include_bytes!("../../../../../examples/textures/bricks_normal.png")),
+    (
+        "brick_wall.toml",
+        include_bytes!("../../../../../examples/brick_wall.toml"),
+    ),
+    (
+        "textures/bricks_albedo.png",
+        include_bytes!("../../../../../examples/textures/bricks_albedo.png"),
+    ),
+    (
+        "textures/bricks_height.png",
+        include_bytes!("../../../../../examples/textures/bricks_height.png"),
+    ),
+    (
+        "textures/bricks_normal.png",
+        include_bytes!("../../../../../examples/textures/bricks_normal.png"),
+    ),
 ];
 
 /// Writes the scene into a folder and returns the scene file.

@@ -10,7 +10,10 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use bossage_conformance::{Report, Selection};
+use bossage_conformance::bench::Bench;
+use bossage_conformance::environment::Environment;
+use bossage_conformance::generate::random::SEED;
+use bossage_conformance::{Progress, Report, Route, Selection};
 use bossage_runner::{AdapterInfo, AdapterSelector, Device};
 use bossage_shaders::Library;
 use bossage_translate::external::{self, Validator};
@@ -60,16 +63,41 @@ pub(crate) fn run(args: &Demo, global: &Global, console: Console) -> Result<Verd
     for planned in &mut inputs.scenes {
         plan::add_costs(&mut planned.plan, &library)?;
     }
-    clock.lap("plan", &format!("{} permutation(s)", inputs.scenes.iter().map(|s| s.plan.permutations.len()).sum::<usize>()));
+    clock.lap(
+        "plan",
+        &format!(
+            "{} permutation(s)",
+            inputs
+                .scenes
+                .iter()
+                .map(|s| s.plan.permutations.len())
+                .sum::<usize>()
+        ),
+    );
 
     let options = EmitOptions::default();
-    let job = Job { targets: &Target::ALL, options: &options, folder: &folder.join("shaders") };
+    let job = Job {
+        targets: &Target::ALL,
+        options: &options,
+        folder: &folder.join("shaders"),
+    };
     let done = job.write(&inputs, Some(("demo".to_owned(), Stamp::load(job.folder))))?;
-    clock.lap("emit", &format!("{} shaders in {} languages", inputs.modules.len(), Target::ALL.len()));
+    clock.lap(
+        "emit",
+        &format!(
+            "{} shaders in {} languages",
+            inputs.modules.len(),
+            Target::ALL.len()
+        ),
+    );
 
     let validators = external::detect();
     console.note(check::banner(&validators).trim_end());
-    let checker = Checker { options: &options, validators: &validators, cache: check::cache_folder(None) };
+    let checker = Checker {
+        options: &options,
+        validators: &validators,
+        cache: check::cache_folder(None),
+    };
     let mut check = checker.check_translations(&path, &done.translations);
     check.lints = inputs.parse()?.iter().flat_map(lint).collect();
     clock.lap("check", if check.ok { "nothing failed" } else { "FAILED" });
@@ -94,19 +122,29 @@ impl Story {
     fn execute(&mut self, library: &Library, clock: &mut Clock) -> Result<()> {
         let device = match Device::open(&AdapterSelector::Any) {
             Err(error) if error.is_missing_environment() => {
-                let missing = format!("Pictures and conformance are left out: {}", crate::error::chain(&error));
+                let missing = format!(
+                    "Pictures and conformance are left out: {}",
+                    crate::error::chain(&error)
+                );
                 clock.console.note(console::faint(&missing));
                 self.left_out.push(missing);
                 return Ok(());
             }
             device => device?,
         };
-        let planned = self.inputs.scenes.first().ok_or_else(|| Error::Call("the demo has no scene".to_owned()))?;
+        let planned = self
+            .inputs
+            .scenes
+            .first()
+            .ok_or_else(|| Error::Call("the demo has no scene".to_owned()))?;
         self.pictures = pictures(&device, planned, library)?;
         clock.lap("render", &describe(device.info()));
         let report = conform(planned, library, clock.console)?;
         let totals = report.totals();
-        clock.lap("conform", &format!("{} results, {} failed", totals.cases, totals.fail));
+        clock.lap(
+            "conform",
+            &format!("{} results, {} failed", totals.cases, totals.fail),
+        );
         self.conformance = Some(report);
         Ok(())
     }
@@ -126,9 +164,16 @@ impl Story {
         }
         outputs.commit()?;
         let picture = self.pictures.first().map(|shot| folder.join(shot.file));
-        let picture = picture.map_or_else(|| "none (no adapter)".to_owned(), |path| path.display().to_string());
+        let picture = picture.map_or_else(
+            || "none (no adapter)".to_owned(),
+            |path| path.display().to_string(),
+        );
         console::print(&format!("picture: {picture}\nreport:  {}\n", page.display()))?;
-        Ok(if self.is_fine() { Verdict::Fine } else { Verdict::Failed })
+        Ok(if self.is_fine() {
+            Verdict::Fine
+        } else {
+            Verdict::Failed
+        })
     }
 }
 
@@ -141,12 +186,19 @@ fn pictures(device: &Device, planned: &Planned, library: &Library) -> Result<Vec
     let with = render::picture(device, &planned.scene, library)?;
     let without = render::picture(device, &technique::pinned(&planned.scene, "none")?, library)?;
     let difference = difference(&without, &with);
-    let chosen = planned.plan.materials.first().map_or("none", |material| material.technique);
+    let chosen = planned
+        .plan
+        .materials
+        .first()
+        .map_or("none", |material| material.technique);
     Ok(vec![
         Shot {
             file: "brick_wall.png",
             title: "The scene as planned".to_owned(),
-            caption: format!("A flat brick wall, {} x {} pixels, drawn with technique {chosen}.", with.width, with.height),
+            caption: format!(
+                "A flat brick wall, {} x {} pixels, drawn with technique {chosen}.",
+                with.width, with.height
+            ),
             png: with.png()?,
         },
         Shot {
@@ -164,16 +216,41 @@ fn pictures(device: &Device, planned: &Planned, library: &Library) -> Result<Vec
 
 /// The scene itself, and every technique whose code is in its shaders or whose data it reads.
 fn conform(planned: &Planned, library: &Library, console: Console) -> Result<Report> {
-    let scenes = vec![planned.scene.path.clone()];
-    let mut filters: Vec<String> = techniques(planned, library)?.iter().map(|id| format!("{id}/")).collect();
-    filters.push("scene/".to_owned());
-    let mut reports = Vec::new();
-    for filter in filters {
-        let selection = Selection { filter: Some(filter), scenes: scenes.clone(), ..Selection::default() };
-        reports.push(bossage_conformance::run(&selection, library, &mut Watch::new(console))?);
+    let selection = Selection {
+        scenes: vec![planned.scene.path.clone()],
+        ..Selection::default()
+    };
+    let mut wanted = techniques(planned, library)?;
+    wanted.insert("scene".to_owned());
+    let mut cases = selection.cases()?;
+    cases.retain(|case| wanted.contains(&case.id().technique));
+    let infos = selection.adapters()?;
+    let open = |info: &AdapterInfo| Device::open(&AdapterSelector::named(&info.name));
+    let devices = infos
+        .iter()
+        .map(open)
+        .collect::<std::result::Result<Vec<_>, _>>()?;
+    let benches: Vec<Bench<'_>> = devices
+        .iter()
+        .flat_map(|device| Route::ALL.map(|route| Bench::new(device, route, library)))
+        .collect();
+    let mut watch = Watch::new(console);
+    watch.start(cases.len() * benches.len());
+    let mut results = Vec::new();
+    for case in cases {
+        for bench in &benches {
+            let result = case.run(bench).into_result(case.as_ref(), bench);
+            watch.done(&result);
+            results.push(result);
+        }
     }
-    let environment = reports.first().map(|report| report.environment.clone()).unwrap_or_default();
-    Ok(Report::new(environment, reports.into_iter().flat_map(|report| report.cases).collect()))
+    Ok(Report::new(
+        Environment {
+            seed: SEED,
+            ..Environment::of(&infos)
+        },
+        results,
+    ))
 }
 
 fn techniques(planned: &Planned, library: &Library) -> Result<BTreeSet<String>> {
@@ -184,7 +261,11 @@ fn techniques(planned: &Planned, library: &Library) -> Result<BTreeSet<String>> 
     for material in &planned.scene.materials {
         let codec = material.normal.as_ref().map(|normal| normal.map.codec);
         ids.extend(codec.map(|codec| format!("codec_{}", codec.name())));
-        let has_tangents = planned.plan.materials.iter().any(|plan| plan.name == material.name && plan.features.has_tangent());
+        let has_tangents = planned
+            .plan
+            .materials
+            .iter()
+            .any(|plan| plan.name == material.name && plan.features.has_tangent());
         ids.extend(has_tangents.then(|| tangents(material.tangents).to_owned()));
     }
     Ok(ids)
@@ -194,7 +275,9 @@ fn techniques(planned: &Planned, library: &Library) -> Result<BTreeSet<String>> 
 fn technique_of(module: &str) -> Option<String> {
     let path = PathBuf::from(module);
     let is_technique = path.parent().is_some_and(|folder| folder.ends_with("techniques"));
-    is_technique.then(|| path.file_stem().map(|stem| stem.to_string_lossy().into_owned())).flatten()
+    is_technique
+        .then(|| path.file_stem().map(|stem| stem.to_string_lossy().into_owned()))
+        .flatten()
 }
 
 const fn tangents(tangents: bossage_scene::Tangents) -> &'static str {
@@ -213,12 +296,17 @@ struct Clock {
 
 impl Clock {
     fn new(console: Console) -> Self {
-        Self { console, last: Instant::now(), laps: Vec::new() }
+        Self {
+            console,
+            last: Instant::now(),
+            laps: Vec::new(),
+        }
     }
 
     fn lap(&mut self, name: &'static str, what: &str) {
         let time = self.last.elapsed();
-        self.console.note(format_args!("{name:8} {:6.2} s  {what}", time.as_secs_f64()));
+        self.console
+            .note(format_args!("{name:8} {:6.2} s  {what}", time.as_secs_f64()));
         self.laps.push((name, time));
         self.last = Instant::now();
     }

@@ -51,7 +51,13 @@ pub(super) fn write(story: &Story) -> Result<String> {
 }
 
 fn contents() -> Markup {
-    let parts = [("picture", "Picture"), ("plan", "Plan"), ("code", "Code"), ("checks", "Checks"), ("conformance", "Conformance")];
+    let parts = [
+        ("picture", "Picture"),
+        ("plan", "Plan"),
+        ("code", "Code"),
+        ("checks", "Checks"),
+        ("conformance", "Conformance"),
+    ];
     html! {
         nav aria-label="Parts of this page" {
             ul { @for (id, name) in parts { li { a href={ "#" (id) } { (name) } } } }
@@ -60,7 +66,11 @@ fn contents() -> Markup {
 }
 
 fn summary(story: &Story) -> Markup {
-    let verdict = if story.is_fine() { "Nothing failed." } else { "Something failed: see below." };
+    let verdict = if story.is_fine() {
+        "Nothing failed."
+    } else {
+        "Something failed: see below."
+    };
     html! {
         p.verdict.(if story.is_fine() { "pass" } else { "fail" }) { (verdict) }
         @for left_out in &story.left_out { p.verdict.skip { (left_out) } }
@@ -135,7 +145,11 @@ fn effect_row(effect: &Effect) -> Markup {
         State::Kept => ("pass", "kept"),
         State::Dropped => ("skip", "dropped"),
     };
-    let evidence: Vec<String> = effect.evidence.iter().map(|(name, fact)| format!("{name} = {}", plan::fact(fact))).collect();
+    let evidence: Vec<String> = effect
+        .evidence
+        .iter()
+        .map(|(name, fact)| format!("{name} = {}", plan::fact(fact)))
+        .collect();
     html! {
         tr {
             th scope="row" { code { (effect.id.as_str()) } }
@@ -172,7 +186,8 @@ fn listings(translation: &Translation) -> Result<Vec<Markup>> {
         }
     }
     for (target, diagnostic) in &translation.failures {
-        blocks.push(html! { div.fail { p { (target) " cannot express this shader:" } pre { (diagnostic) } } });
+        blocks
+            .push(html! { div.fail { p { (target) " cannot express this shader:" } pre { (diagnostic) } } });
     }
     Ok(blocks)
 }
@@ -180,7 +195,10 @@ fn listings(translation: &Translation) -> Result<Vec<Markup>> {
 fn listing(target: Target, file: &EmittedFile, open: bool) -> Result<Markup> {
     let (name, text) = match &file.contents {
         Contents::Text(text) => (file.file_name.clone(), text.clone()),
-        Contents::Binary(bytes) => (format!("{}asm", file.file_name), emit::listing(&file.file_name, bytes)?),
+        Contents::Binary(bytes) => (
+            format!("{}asm", file.file_name),
+            emit::listing(&file.file_name, bytes)?,
+        ),
     };
     let lines = text.lines().count();
     Ok(html! {
@@ -206,7 +224,11 @@ const fn title(target: Target) -> &'static str {
 fn numbered(text: &str) -> String {
     let mut out = String::new();
     for line in text.lines() {
-        let _ = writeln!(out, "<span class=\"line\">{}</span>", html! { (line) }.into_string());
+        let _ = writeln!(
+            out,
+            "<span class=\"line\">{}</span>",
+            html! { (line) }.into_string()
+        );
     }
     out
 }
