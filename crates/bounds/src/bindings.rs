@@ -89,7 +89,12 @@ pub struct Bindings<D: Domain> {
 
 impl<D: Domain> Default for Bindings<D> {
     fn default() -> Self {
-        Self { buffers: BTreeMap::new(), textures: BTreeMap::new(), samplers: BTreeMap::new(), written_textures: BTreeMap::new() }
+        Self {
+            buffers: BTreeMap::new(),
+            textures: BTreeMap::new(),
+            samplers: BTreeMap::new(),
+            written_textures: BTreeMap::new(),
+        }
     }
 }
 
@@ -101,18 +106,27 @@ impl<D: Domain> Bindings<D> {
 
     /// Binds a buffer of exact bytes.
     pub fn bytes(mut self, group: u32, binding: u32, bytes: impl Into<Vec<u8>>) -> Self {
-        self.buffers.insert((group, binding), BufferData::Bytes(bytes.into()));
+        self.buffers
+            .insert((group, binding), BufferData::Bytes(bytes.into()));
         self
     }
 
     /// Binds a buffer of exact `f32` values.
     pub fn floats(self, group: u32, binding: u32, values: &[f32]) -> Self {
-        self.bytes(group, binding, values.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>())
+        self.bytes(
+            group,
+            binding,
+            values.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>(),
+        )
     }
 
     /// Binds a buffer of exact `u32` values.
     pub fn words(self, group: u32, binding: u32, values: &[u32]) -> Self {
-        self.bytes(group, binding, values.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>())
+        self.bytes(
+            group,
+            binding,
+            values.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>(),
+        )
     }
 
     /// Binds a buffer of scalars of the domain.

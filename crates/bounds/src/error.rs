@@ -38,7 +38,9 @@ pub enum Error {
     #[error("pipeline constants cannot be applied")]
     Overrides(#[from] Box<naga::back::pipeline_constants::PipelineConstantError>),
     /// A resource the shader uses has no value.
-    #[error("nothing is bound at group {group}, binding {binding} (`{name}`); add a {expected} to the bindings")]
+    #[error(
+        "nothing is bound at group {group}, binding {binding} (`{name}`); add a {expected} to the bindings"
+    )]
     MissingBinding {
         /// Bind group.
         group: u32,
@@ -84,7 +86,9 @@ pub enum Error {
         hi: f64,
     },
     /// The shader executed more operations than it was allowed; it probably does not end.
-    #[error("the operation budget of {budget} operations for each invocation is used up; raise `Limits::operations` if the shader does end")]
+    #[error(
+        "the operation budget of {budget} operations for each invocation is used up; raise `Limits::operations` if the shader does end"
+    )]
     Budget {
         /// Operations allowed for each invocation.
         budget: u64,
@@ -115,7 +119,9 @@ impl Error {
     /// The place in the source, for those errors that have one.
     pub fn span(&self) -> Option<Span> {
         match self {
-            Self::Unsupported { span, .. } | Self::Budget { span, .. } | Self::Depth { span, .. } => Some(*span),
+            Self::Unsupported { span, .. } | Self::Budget { span, .. } | Self::Depth { span, .. } => {
+                Some(*span)
+            }
             Self::NoEntryPoint { .. }
             | Self::WrongStage { .. }
             | Self::Overrides(_)

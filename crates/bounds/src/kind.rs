@@ -14,27 +14,45 @@ pub struct IntType {
 
 impl IntType {
     /// `i32`.
-    pub const I32: Self = Self { signed: true, bits: 32 };
+    pub const I32: Self = Self {
+        signed: true,
+        bits: 32,
+    };
     /// `u32`.
-    pub const U32: Self = Self { signed: false, bits: 32 };
+    pub const U32: Self = Self {
+        signed: false,
+        bits: 32,
+    };
 
     /// The least value.
     #[inline(always)]
     pub const fn min(self) -> i128 {
-        if self.signed { -(1i128 << (self.bits - 1)) } else { 0 }
+        if self.signed {
+            -(1i128 << (self.bits - 1))
+        } else {
+            0
+        }
     }
 
     /// The greatest value.
     #[inline(always)]
     pub const fn max(self) -> i128 {
-        if self.signed { (1i128 << (self.bits - 1)) - 1 } else { (1i128 << self.bits) - 1 }
+        if self.signed {
+            (1i128 << (self.bits - 1)) - 1
+        } else {
+            (1i128 << self.bits) - 1
+        }
     }
 
     /// Reduces a number modulo `2^bits` into the type.
     #[inline(always)]
     pub const fn wrap(self, x: i128) -> i128 {
         let low = x & ((1i128 << self.bits) - 1);
-        if self.signed && (low >> (self.bits - 1)) & 1 == 1 { low - (1i128 << self.bits) } else { low }
+        if self.signed && (low >> (self.bits - 1)) & 1 == 1 {
+            low - (1i128 << self.bits)
+        } else {
+            low
+        }
     }
 
     /// The bit pattern of a value of the type.
@@ -61,8 +79,12 @@ impl Kind {
         let bits = u32::from(scalar.width) * 8;
         match scalar.kind {
             ScalarKind::Bool => Some(Self::Bool),
-            ScalarKind::Sint if matches!(bits, 16 | 32 | 64) => Some(Self::Int(IntType { signed: true, bits })),
-            ScalarKind::Uint if matches!(bits, 16 | 32 | 64) => Some(Self::Int(IntType { signed: false, bits })),
+            ScalarKind::Sint if matches!(bits, 16 | 32 | 64) => {
+                Some(Self::Int(IntType { signed: true, bits }))
+            }
+            ScalarKind::Uint if matches!(bits, 16 | 32 | 64) => {
+                Some(Self::Int(IntType { signed: false, bits }))
+            }
             ScalarKind::Float => match bits {
                 16 => Some(Self::Float(Width::F16)),
                 32 => Some(Self::Float(Width::F32)),

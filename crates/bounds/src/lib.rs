@@ -90,5 +90,8 @@ pub use kind::{IntType, Kind};
 pub use limits::Limits;
 pub use run::{Outcome, SpanCost, run_compute, run_fragment, run_probe, run_probe_with, run_vertex};
 pub use stage::{Column, Slot, StageInputs, StageOutputs};
-pub use texture::{AddressMode, CompareFunction, Dimension, Filter, LOD_SLACK, MAX_SIDE, SUBTEXEL, Sampler, TexelFormat, Texture};
+pub use texture::{
+    AddressMode, CompareFunction, Dimension, Filter, LOD_SLACK, MAX_SIDE, SUBTEXEL, Sampler, TexelFormat,
+    Texture,
+};
 pub use width::Width;

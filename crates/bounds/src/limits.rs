@@ -20,6 +20,13 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { operations: 1 << 22, undecided_exits: 128, spread: 1024, depth: 400, memory: 1 << 30, count: false }
+        Self {
+            operations: 1 << 22,
+            undecided_exits: 128,
+            spread: 1024,
+            depth: 400,
+            memory: 1 << 30,
+            count: false,
+        }
     }
 }

@@ -38,11 +38,18 @@ impl Outcome {
         let mut by_place: BTreeMap<(usize, usize), SpanCost> = BTreeMap::new();
         for (&span, &[operations, fetches]) in program.code.spans.iter().zip(&counters.by_span) {
             let range = span.to_range().unwrap_or(0..0);
-            let entry = by_place.entry((range.start, range.end)).or_insert(SpanCost { span, operations: 0, fetches: 0 });
+            let entry = by_place.entry((range.start, range.end)).or_insert(SpanCost {
+                span,
+                operations: 0,
+                fetches: 0,
+            });
             entry.operations += operations;
             entry.fetches += fetches;
         }
-        let spans = by_place.into_values().filter(|c| c.operations + c.fetches > 0).collect();
+        let spans = by_place
+            .into_values()
+            .filter(|c| c.operations + c.fetches > 0)
+            .collect();
         Self { counters, spans }
     }
 }
@@ -57,7 +64,11 @@ fn expect_stage(program: &Program, stage: ShaderStage, wanted: &'static str) -> 
         ShaderStage::Compute => "compute",
         _ => "other",
     };
-    Err(Error::WrongStage { name: program.name.clone(), found, wanted })
+    Err(Error::WrongStage {
+        name: program.name.clone(),
+        found,
+        wanted,
+    })
 }
 
 /// Dispatches a compute shader. Buffers that the shader may write are left in `bindings` as scalars of the domain.
@@ -66,7 +77,12 @@ fn expect_stage(program: &Program, stage: ShaderStage, wanted: &'static str) -> 
 ///
 /// # Errors
 /// A binding that is missing or does not fit, a budget that is used up, or something unsupported.
-pub fn run_compute<D: Domain>(program: &Program, bindings: &mut Bindings<D>, workgroups: [u32; 3], limits: &Limits) -> Result<Outcome> {
+pub fn run_compute<D: Domain>(
+    program: &Program,
+    bindings: &mut Bindings<D>,
+    workgroups: [u32; 3],
+    limits: &Limits,
+) -> Result<Outcome> {
     expect_stage(program, ShaderStage::Compute, "compute")?;
     let mut prepared = prepare::prepare(program, bindings, limits)?;
     let counters = batches::compute(program, &mut prepared, workgroups, limits)?;
@@ -86,8 +102,14 @@ pub fn run_fragment<D: Domain>(
 ) -> Result<(StageOutputs<D>, Outcome)> {
     expect_stage(program, ShaderStage::Fragment, "fragment")?;
     if program.uses_derivatives() && inputs.count % 4 != 0 {
-        let reason = format!("the shader takes derivatives, so fragments come in quads of four; {} were given", inputs.count);
-        return Err(Error::Input { input: "invocations".into(), reason });
+        let reason = format!(
+            "the shader takes derivatives, so fragments come in quads of four; {} were given",
+            inputs.count
+        );
+        return Err(Error::Input {
+            input: "invocations".into(),
+            reason,
+        });
     }
     run_stage(program, bindings, inputs, limits)
 }
@@ -150,8 +172,15 @@ pub fn run_probe_with<D: Domain>(
 ) -> Result<(Vec<D::Float>, Outcome)> {
     let kind = crate::kind::Kind::Float(crate::width::Width::F32);
     let sentinel = Scalar::Float(D::to_float(D::indeterminate(kind)));
-    bindings.buffers.insert((0, 1), BufferData::Scalars(vec![sentinel; output_len]));
-    let group = program.workgroup_size.iter().map(|&n| n as usize).product::<usize>().max(1);
+    bindings
+        .buffers
+        .insert((0, 1), BufferData::Scalars(vec![sentinel; output_len]));
+    let group = program
+        .workgroup_size
+        .iter()
+        .map(|&n| n as usize)
+        .product::<usize>()
+        .max(1);
     let groups = items.div_ceil(group) as u32;
     let outcome = run_compute(program, &mut bindings, [groups, 1, 1], limits)?;
     let outputs = bindings.read_floats(0, 1).ok_or_else(|| Error::Buffer {

@@ -67,7 +67,10 @@ impl<D: Domain> StageInputs<D> {
     /// Inputs of that many invocations. Fragments of a program that takes derivatives come in quads: four invocations with the
     /// pixels (0,0), (1,0), (0,1), (1,1).
     pub fn new(count: usize) -> Self {
-        Self { count, columns: BTreeMap::new() }
+        Self {
+            count,
+            columns: BTreeMap::new(),
+        }
     }
 
     /// Sets a slot; `components` scalars for each invocation.
@@ -90,13 +93,19 @@ impl<D: Domain> StageInputs<D> {
 
     /// Sets whether fragments face the viewer.
     pub fn front_facing(self, values: &[bool]) -> Self {
-        let values = values.iter().map(|&b| Scalar::Bool(Truth::from_bool(b))).collect();
+        let values = values
+            .iter()
+            .map(|&b| Scalar::Bool(Truth::from_bool(b)))
+            .collect();
         self.set(Slot::FrontFacing, 1, values)
     }
 
     /// Sets a slot of one exact integer for each invocation, such as the vertex index.
     pub fn index(self, slot: Slot, values: &[u32]) -> Self {
-        let values = values.iter().map(|&x| Scalar::Int(i128::from(x), i128::from(x))).collect();
+        let values = values
+            .iter()
+            .map(|&x| Scalar::Int(i128::from(x), i128::from(x)))
+            .collect();
         self.set(slot, 1, values)
     }
 }

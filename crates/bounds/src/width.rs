@@ -105,14 +105,22 @@ impl Width {
     #[inline(always)]
     pub fn round_down(self, x: f64, residual: f64) -> f64 {
         let nearest = self.round(x);
-        if nearest > x || (nearest == x && residual < 0.0) { self.next_down(nearest) } else { nearest }
+        if nearest > x || (nearest == x && residual < 0.0) {
+            self.next_down(nearest)
+        } else {
+            nearest
+        }
     }
 
     /// The smallest value of the format that is not below `x + residual`; see [`Width::round_down`].
     #[inline(always)]
     pub fn round_up(self, x: f64, residual: f64) -> f64 {
         let nearest = self.round(x);
-        if nearest < x || (nearest == x && residual > 0.0) { self.next_up(nearest) } else { nearest }
+        if nearest < x || (nearest == x && residual > 0.0) {
+            self.next_up(nearest)
+        } else {
+            nearest
+        }
     }
 
     /// The unit in the last place at the real number `x`: the least distance between two different finite values `a <= x <= b`.
@@ -149,7 +157,11 @@ const fn max_exponent(w: Width) -> i32 {
 /// The exponent of the binade that holds the positive, finite `x`.
 pub(crate) fn exponent_of(x: f64) -> i32 {
     let biased = ((x.to_bits() >> 52) & 0x7ff) as i32;
-    if biased == 0 { -1074 + (63 - x.to_bits().leading_zeros() as i32) } else { biased - 1023 }
+    if biased == 0 {
+        -1074 + (63 - x.to_bits().leading_zeros() as i32)
+    } else {
+        biased - 1023
+    }
 }
 
 /// `2^e` exactly, also where it is subnormal; zero or infinity beyond the range of `f64`.
@@ -181,7 +193,11 @@ fn f16_nearest(x: f64) -> f64 {
     let exponent = exponent_of(x.abs()).max(-14);
     let step = exp2i(exponent - 10);
     let rounded = (x / step).round_ties_even() * step;
-    if rounded.abs() > 65504.0 { f64::INFINITY.copysign(x) } else { rounded }
+    if rounded.abs() > 65504.0 {
+        f64::INFINITY.copysign(x)
+    } else {
+        rounded
+    }
 }
 
 fn f16_next_up(x: f64) -> f64 {

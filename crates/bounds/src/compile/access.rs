@@ -9,7 +9,12 @@ use crate::error::Result;
 use naga::{Expression, Handle, Span};
 
 impl<'m> Builder<'m> {
-    pub(crate) fn load(&mut self, frame: &mut Frame<'m>, pointer: Handle<Expression>, span: Span) -> Result<Val> {
+    pub(crate) fn load(
+        &mut self,
+        frame: &mut Frame<'m>,
+        pointer: Handle<Expression>,
+        span: Span,
+    ) -> Result<Val> {
         let inner = self.pointee(self.type_of(frame, pointer));
         let place = self.value(frame, pointer)?.place(span)?;
         let kinds = self.types.kinds_of(&inner)?;
@@ -17,8 +22,12 @@ impl<'m> Builder<'m> {
             let first = base + place.offset;
             return self.load_rows(frame, first..first + kinds.len() as Row);
         }
+        if let Some(rows) = frame.loaded.get(&place) {
+            return Ok(Val::Rows(rows.clone()));
+        }
         let rows = self.rows(frame, &kinds);
         let dst = rows.first().copied().unwrap_or(0);
+        frame.loaded.insert(place.clone(), rows.clone());
         self.push(frame, Op::Load(Box::new(Load { dst, kinds, place })))?;
         Ok(Val::Rows(rows))
     }
@@ -51,6 +60,7 @@ impl<'m> Builder<'m> {
 
     /// Records what a write through a place may change.
     pub(crate) fn note_write(&mut self, frame: &mut Frame<'m>, place: &Place) {
+        frame.loaded.clear();
         match place.root {
             Root::Rows { base, len } => {
                 frame.known.retain(|row, _| !(base..base + len).contains(row));

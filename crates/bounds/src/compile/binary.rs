@@ -20,7 +20,10 @@ enum Shape {
 fn shape(inner: &TypeInner) -> Shape {
     match *inner {
         TypeInner::Vector { size, .. } => Shape::Vector(size as usize),
-        TypeInner::Matrix { columns, rows, .. } => Shape::Matrix { columns: columns as usize, rows: rows as usize },
+        TypeInner::Matrix { columns, rows, .. } => Shape::Matrix {
+            columns: columns as usize,
+            rows: rows as usize,
+        },
         _ => Shape::Scalar,
     }
 }
@@ -37,7 +40,10 @@ impl<'m> Builder<'m> {
         let k = self.kind_of(frame, left)?;
         let (a, b) = (self.scalars(frame, left)?, self.scalars(frame, right)?);
         if let (BinaryOperator::Multiply, Kind::Float(w)) = (op, k) {
-            let shapes = (shape(self.type_of(frame, left)), shape(self.type_of(frame, right)));
+            let shapes = (
+                shape(self.type_of(frame, left)),
+                shape(self.type_of(frame, right)),
+            );
             return self.product(frame, w, shapes, &a, &b);
         }
         let n = a.len().max(b.len());
@@ -49,7 +55,15 @@ impl<'m> Builder<'m> {
         Ok(Val::Rows(out))
     }
 
-    fn scalar_binary(&mut self, frame: &mut Frame<'m>, op: BinaryOperator, k: Kind, a: Row, b: Row, span: Span) -> Result<Row> {
+    fn scalar_binary(
+        &mut self,
+        frame: &mut Frame<'m>,
+        op: BinaryOperator,
+        k: Kind,
+        a: Row,
+        b: Row,
+        span: Span,
+    ) -> Result<Row> {
         if let Some(op) = comparison(op) {
             return self.comparison(frame, op, k, a, b, span);
         }
@@ -69,16 +83,30 @@ impl<'m> Builder<'m> {
         }
     }
 
-    fn comparison(&mut self, frame: &mut Frame<'m>, op: Compare, k: Kind, a: Row, b: Row, span: Span) -> Result<Row> {
+    fn comparison(
+        &mut self,
+        frame: &mut Frame<'m>,
+        op: Compare,
+        k: Kind,
+        a: Row,
+        b: Row,
+        span: Span,
+    ) -> Result<Row> {
         match (k, op) {
             (Kind::Float(w), _) => self.emit(frame, Kind::Bool, |dst| Op::FloatCompare { op, w, dst, a, b }),
             (Kind::Int(t), _) => self.emit(frame, Kind::Bool, |dst| Op::IntCompare { op, t, dst, a, b }),
-            (Kind::Bool, Compare::Equal) => {
-                self.emit(frame, k, |dst| Op::BoolBinary { op: BoolBinary::Equal, dst, a, b })
-            }
-            (Kind::Bool, Compare::NotEqual) => {
-                self.emit(frame, k, |dst| Op::BoolBinary { op: BoolBinary::NotEqual, dst, a, b })
-            }
+            (Kind::Bool, Compare::Equal) => self.emit(frame, k, |dst| Op::BoolBinary {
+                op: BoolBinary::Equal,
+                dst,
+                a,
+                b,
+            }),
+            (Kind::Bool, Compare::NotEqual) => self.emit(frame, k, |dst| Op::BoolBinary {
+                op: BoolBinary::NotEqual,
+                dst,
+                a,
+                b,
+            }),
             (Kind::Bool, Compare::Less | Compare::LessEqual | Compare::Greater | Compare::GreaterEqual) => {
                 unsupported("an order of truth values", span)
             }
@@ -86,17 +114,38 @@ impl<'m> Builder<'m> {
     }
 
     /// A float operation on two scalars; the product of a value with itself is a square.
-    pub(crate) fn float_binary(&mut self, frame: &mut Frame<'m>, op: FloatBinary, w: Width, a: Row, b: Row) -> Result<Row> {
+    pub(crate) fn float_binary(
+        &mut self,
+        frame: &mut Frame<'m>,
+        op: FloatBinary,
+        w: Width,
+        a: Row,
+        b: Row,
+    ) -> Result<Row> {
         let k = Kind::Float(w);
         if op == FloatBinary::Multiply && a == b {
-            return self.emit(frame, k, |dst| Op::FloatUnary { op: FloatUnary::Square, w, dst, a });
+            return self.emit(frame, k, |dst| Op::FloatUnary {
+                op: FloatUnary::Square,
+                w,
+                dst,
+                a,
+            });
         }
         self.emit(frame, k, |dst| Op::FloatBinary { op, w, dst, a, b })
     }
 
-    fn product(&mut self, frame: &mut Frame<'m>, w: Width, shapes: (Shape, Shape), a: &[Row], b: &[Row]) -> Result<Val> {
+    fn product(
+        &mut self,
+        frame: &mut Frame<'m>,
+        w: Width,
+        shapes: (Shape, Shape),
+        a: &[Row],
+        b: &[Row],
+    ) -> Result<Val> {
         match shapes {
-            (Shape::Matrix { columns, rows }, Shape::Vector(_)) => self.matrix_vector(frame, w, (columns, rows), a, b),
+            (Shape::Matrix { columns, rows }, Shape::Vector(_)) => {
+                self.matrix_vector(frame, w, (columns, rows), a, b)
+            }
             (Shape::Vector(n), Shape::Matrix { .. }) => {
                 let mut out = Vec::new();
                 for column in b.chunks(n) {
@@ -107,7 +156,10 @@ impl<'m> Builder<'m> {
             (Shape::Matrix { columns, rows }, Shape::Matrix { .. }) => {
                 let mut out = Vec::new();
                 for column in b.chunks(columns) {
-                    out.extend(self.matrix_vector(frame, w, (columns, rows), a, column)?.rows(Span::UNDEFINED)?);
+                    out.extend(
+                        self.matrix_vector(frame, w, (columns, rows), a, column)?
+                            .rows(Span::UNDEFINED)?,
+                    );
                 }
                 Ok(Val::Rows(out))
             }
@@ -127,7 +179,14 @@ impl<'m> Builder<'m> {
         Ok(Val::Rows(out))
     }
 
-    fn matrix_vector(&mut self, frame: &mut Frame<'m>, w: Width, (columns, rows): (usize, usize), m: &[Row], v: &[Row]) -> Result<Val> {
+    fn matrix_vector(
+        &mut self,
+        frame: &mut Frame<'m>,
+        w: Width,
+        (columns, rows): (usize, usize),
+        m: &[Row],
+        v: &[Row],
+    ) -> Result<Val> {
         let mut out = Vec::with_capacity(rows);
         for r in 0..rows {
             let line: Vec<Row> = (0..columns).map(|c| m[c * rows + r]).collect();
@@ -152,7 +211,12 @@ impl<'m> Builder<'m> {
         }
         let mut terms = [list[0]; 4];
         terms[..list.len()].copy_from_slice(list);
-        self.emit(frame, Kind::Float(w), |dst| Op::Sum { w, dst, terms, n: list.len() as u8 })
+        self.emit(frame, Kind::Float(w), |dst| Op::Sum {
+            w,
+            dst,
+            terms,
+            n: list.len() as u8,
+        })
     }
 }
 

@@ -1,6 +1,8 @@
 //! Allocation of rows, emission of instructions, and the table of function instances.
 
-use super::code::{Block, Code, Constant, Effects, FunctionCode, HandleRef, Instr, Node, Op, Place, Root, Row};
+use super::code::{
+    Block, Code, Constant, Effects, FunctionCode, HandleRef, Instr, Node, Op, Place, Root, Row,
+};
 use super::layout::{Types, unsupported};
 use crate::error::{Error, Result};
 use crate::kind::Kind;
@@ -61,6 +63,8 @@ pub(crate) struct Frame<'m> {
     pub(crate) effects: Vec<Effects>,
     /// Which value row holds what a variable row holds, in the current straight line of code.
     pub(crate) known: HashMap<Row, Row>,
+    /// Values loaded through other places in the current straight line of code.
+    pub(crate) loaded: HashMap<Place, Vec<Row>>,
     pub(crate) span: u32,
 }
 
@@ -99,15 +103,24 @@ impl<'m> Builder<'m> {
     }
 
     pub(crate) fn float(&mut self, w: crate::width::Width, x: f64) -> Row {
-        self.constant(Constant { kind: Kind::Float(w), bits: w.round(x).to_bits() })
+        self.constant(Constant {
+            kind: Kind::Float(w),
+            bits: w.round(x).to_bits(),
+        })
     }
 
     pub(crate) fn int(&mut self, t: crate::kind::IntType, x: i128) -> Row {
-        self.constant(Constant { kind: Kind::Int(t), bits: x as u64 })
+        self.constant(Constant {
+            kind: Kind::Int(t),
+            bits: x as u64,
+        })
     }
 
     pub(crate) fn bool(&mut self, b: bool) -> Row {
-        self.constant(Constant { kind: Kind::Bool, bits: u64::from(b) })
+        self.constant(Constant {
+            kind: Kind::Bool,
+            bits: u64::from(b),
+        })
     }
 
     pub(crate) fn zero(&mut self, kind: Kind) -> Row {
@@ -125,7 +138,12 @@ impl<'m> Builder<'m> {
     }
 
     /// The instance of a function for the given pointer and texture arguments, compiled on first use.
-    pub(crate) fn instance(&mut self, function: Handle<Function>, fixed: Vec<Option<Val>>, span: Span) -> Result<usize> {
+    pub(crate) fn instance(
+        &mut self,
+        function: Handle<Function>,
+        fixed: Vec<Option<Val>>,
+        span: Span,
+    ) -> Result<usize> {
         let key = (function, fixed);
         if let Some(&index) = self.instances.get(&key) {
             return Ok(index);
@@ -141,7 +159,12 @@ impl<'m> Builder<'m> {
     }
 
     /// Compiles a function; arguments without a fixed value get rows.
-    pub(crate) fn function(&mut self, function: &'m Function, info: &'m FunctionInfo, fixed: &[Option<Val>]) -> Result<usize> {
+    pub(crate) fn function(
+        &mut self,
+        function: &'m Function,
+        info: &'m FunctionInfo,
+        fixed: &[Option<Val>],
+    ) -> Result<usize> {
         let mut frame = Frame::new(function, info);
         self.parameters(&mut frame, fixed)?;
         self.locals(&mut frame)?;
@@ -189,23 +212,33 @@ impl<'m> Builder<'m> {
         for (_, local) in frame.function.local_variables.iter() {
             let inner = self.types.inner(local.ty);
             let rows = self.variable(frame, inner)?;
-            frame.locals.push((rows.first().copied().unwrap_or(0), rows.len() as u32));
+            frame
+                .locals
+                .push((rows.first().copied().unwrap_or(0), rows.len() as u32));
         }
         for (handle, local) in frame.function.local_variables.iter() {
             let (base, len) = frame.locals[handle.index()];
             let values = match local.init {
                 Some(init) => self.value(frame, init)?.rows(Span::UNDEFINED)?,
-                None => (base..base + len).map(|row| self.zero(self.code.kinds[row as usize])).collect(),
+                None => (base..base + len)
+                    .map(|row| self.zero(self.code.kinds[row as usize]))
+                    .collect(),
             };
-            for (dst, src) in (base..).zip(values) {
+            for (dst, src) in (base..base + len).zip(values) {
                 self.push(frame, Op::Copy { dst, src })?;
+                frame.known.insert(dst, src);
             }
         }
         Ok(())
     }
 
     /// Emits an instruction that computes one scalar into a new row.
-    pub(crate) fn emit(&mut self, frame: &mut Frame<'m>, kind: Kind, op: impl FnOnce(Row) -> Op) -> Result<Row> {
+    pub(crate) fn emit(
+        &mut self,
+        frame: &mut Frame<'m>,
+        kind: Kind,
+        op: impl FnOnce(Row) -> Op,
+    ) -> Result<Row> {
         let dst = self.rows(frame, &[kind])[0];
         self.push(frame, op(dst))?;
         Ok(dst)
@@ -215,7 +248,10 @@ impl<'m> Builder<'m> {
     pub(crate) fn push(&mut self, frame: &mut Frame<'m>, op: Op) -> Result<()> {
         self.instructions += 1;
         if self.instructions > MAX_INSTRUCTIONS {
-            return unsupported(format!("a program of more than {MAX_INSTRUCTIONS} scalar instructions"), Span::UNDEFINED);
+            return unsupported(
+                format!("a program of more than {MAX_INSTRUCTIONS} scalar instructions"),
+                Span::UNDEFINED,
+            );
         }
         frame.pending.push(Instr { op, span: frame.span });
         Ok(())
@@ -237,6 +273,7 @@ impl<'m> Frame<'m> {
             owned: Vec::new(),
             effects: vec![Effects::default()],
             known: HashMap::new(),
+            loaded: HashMap::new(),
             span: 0,
         }
     }
@@ -264,7 +301,13 @@ impl<'m> Frame<'m> {
     pub(crate) fn node(&mut self, node: Node) {
         self.flush();
         self.block.push(node);
+        self.forget();
+    }
+
+    /// Forgets what variables and memory hold: other code comes between.
+    pub(crate) fn forget(&mut self) {
         self.known.clear();
+        self.loaded.clear();
     }
 
     /// Records an effect in the function and in every loop around the statement.
@@ -296,7 +339,9 @@ impl Val {
     pub(crate) fn handle(self, span: Span) -> Result<HandleRef> {
         match self {
             Self::Handle(handle) => Ok(handle),
-            Self::Rows(_) | Self::Place(_) => unsupported("something else used as a texture or sampler", span),
+            Self::Rows(_) | Self::Place(_) => {
+                unsupported("something else used as a texture or sampler", span)
+            }
         }
     }
 }

@@ -32,7 +32,9 @@ pub(crate) enum Root {
 pub(crate) enum Count {
     Fixed(u32),
     /// The rest of the region from this cell on.
-    Runtime { start: u32 },
+    Runtime {
+        start: u32,
+    },
 }
 
 /// One run-time index on the way to a pointer's target.
@@ -62,30 +64,132 @@ pub(crate) struct HandleRef {
 /// One instruction.
 #[derive(Clone, Debug)]
 pub(crate) enum Op {
-    Copy { dst: Row, src: Row },
-    FloatUnary { op: FloatUnary, w: Width, dst: Row, a: Row },
-    FloatBinary { op: FloatBinary, w: Width, dst: Row, a: Row, b: Row },
-    FloatTernary { op: FloatTernary, w: Width, dst: Row, a: Row, b: Row, c: Row },
-    Sum { w: Width, dst: Row, terms: [Row; 4], n: u8 },
-    FloatCompare { op: Compare, w: Width, dst: Row, a: Row, b: Row },
-    FrexpExponent { w: Width, dst: Row, a: Row },
-    Ldexp { w: Width, dst: Row, a: Row, b: Row },
-    IsNan { dst: Row, a: Row },
-    IsInf { dst: Row, a: Row },
-    IntUnary { op: IntUnary, t: IntType, dst: Row, a: Row },
-    IntBinary { op: IntBinary, t: IntType, dst: Row, a: Row, b: Row },
-    IntCompare { op: Compare, t: IntType, dst: Row, a: Row, b: Row },
-    Not { dst: Row, a: Row },
-    BoolBinary { op: BoolBinary, dst: Row, a: Row, b: Row },
-    Select { kind: Kind, dst: Row, cond: Row, accept: Row, reject: Row },
-    Convert { from: Kind, to: Kind, dst: Row, a: Row },
-    ToBits { from: Kind, dst: Row, a: Row },
-    FromBits { to: Kind, dst: Row, a: Row },
+    Copy {
+        dst: Row,
+        src: Row,
+    },
+    FloatUnary {
+        op: FloatUnary,
+        w: Width,
+        dst: Row,
+        a: Row,
+    },
+    FloatBinary {
+        op: FloatBinary,
+        w: Width,
+        dst: Row,
+        a: Row,
+        b: Row,
+    },
+    FloatTernary {
+        op: FloatTernary,
+        w: Width,
+        dst: Row,
+        a: Row,
+        b: Row,
+        c: Row,
+    },
+    Sum {
+        w: Width,
+        dst: Row,
+        terms: [Row; 4],
+        n: u8,
+    },
+    FloatCompare {
+        op: Compare,
+        w: Width,
+        dst: Row,
+        a: Row,
+        b: Row,
+    },
+    FrexpExponent {
+        w: Width,
+        dst: Row,
+        a: Row,
+    },
+    Ldexp {
+        w: Width,
+        dst: Row,
+        a: Row,
+        b: Row,
+    },
+    IsNan {
+        dst: Row,
+        a: Row,
+    },
+    IsInf {
+        dst: Row,
+        a: Row,
+    },
+    IntUnary {
+        op: IntUnary,
+        t: IntType,
+        dst: Row,
+        a: Row,
+    },
+    IntBinary {
+        op: IntBinary,
+        t: IntType,
+        dst: Row,
+        a: Row,
+        b: Row,
+    },
+    IntCompare {
+        op: Compare,
+        t: IntType,
+        dst: Row,
+        a: Row,
+        b: Row,
+    },
+    Not {
+        dst: Row,
+        a: Row,
+    },
+    BoolBinary {
+        op: BoolBinary,
+        dst: Row,
+        a: Row,
+        b: Row,
+    },
+    Select {
+        kind: Kind,
+        dst: Row,
+        cond: Row,
+        accept: Row,
+        reject: Row,
+    },
+    Convert {
+        from: Kind,
+        to: Kind,
+        dst: Row,
+        a: Row,
+    },
+    ToBits {
+        from: Kind,
+        dst: Row,
+        a: Row,
+    },
+    FromBits {
+        to: Kind,
+        dst: Row,
+        a: Row,
+    },
     Pick(Box<Pick>),
     Load(Box<Load>),
     Store(Box<Store>),
-    ArrayLength { dst: Row, region: RegionId, start: u32, stride: u32 },
-    Derivative { axis: DerivativeAxis, control: DerivativeControl, w: Width, dst: Row, a: Row },
+    ArrayLength {
+        dst: Row,
+        region: RegionId,
+        start: u32,
+        stride: u32,
+    },
+    Derivative {
+        axis: DerivativeAxis,
+        control: DerivativeControl,
+        w: Width,
+        dst: Row,
+        a: Row,
+    },
     Pack(Box<Pack>),
     Unpack(Box<Pack>),
     Atomic(Box<Atomic>),
@@ -174,7 +278,11 @@ pub(crate) struct Atomic {
 #[derive(Clone, Debug)]
 pub(crate) enum AtomicTarget {
     Place(Place),
-    Texel { image: HandleRef, coordinate: Vec<(Row, IntType)>, layer: Option<(Row, IntType)> },
+    Texel {
+        image: HandleRef,
+        coordinate: Vec<(Row, IntType)>,
+        layer: Option<(Row, IntType)>,
+    },
 }
 
 /// Which level of detail a sample reads.
@@ -306,15 +414,28 @@ impl Effects {
 #[derive(Clone, Debug)]
 pub(crate) enum Node {
     Run(Box<[Instr]>),
-    If { cond: Row, accept: Block, reject: Block, span: u32 },
-    Switch { selector: Row, int: IntType, cases: Vec<Case>, span: u32 },
+    If {
+        cond: Row,
+        accept: Block,
+        reject: Block,
+        span: u32,
+    },
+    Switch {
+        selector: Row,
+        int: IntType,
+        cases: Vec<Case>,
+        span: u32,
+    },
     Loop(Box<Loop>),
     Break,
     Continue,
     Return,
     Kill,
     Barrier,
-    Call { function: usize, span: u32 },
+    Call {
+        function: usize,
+        span: u32,
+    },
 }
 
 pub(crate) type Block = Vec<Node>;

@@ -20,20 +20,48 @@ impl<'m> Builder<'m> {
     }
 
     fn neg(&mut self, frame: &mut Frame<'m>, w: Width, a: Row) -> Result<Row> {
-        self.emit(frame, Kind::Float(w), |dst| Op::FloatUnary { op: FloatUnary::Negate, w, dst, a })
+        self.emit(frame, Kind::Float(w), |dst| Op::FloatUnary {
+            op: FloatUnary::Negate,
+            w,
+            dst,
+            a,
+        })
     }
 
     fn sqrt(&mut self, frame: &mut Frame<'m>, w: Width, a: Row) -> Result<Row> {
-        self.emit(frame, Kind::Float(w), |dst| Op::FloatUnary { op: FloatUnary::Sqrt, w, dst, a })
+        self.emit(frame, Kind::Float(w), |dst| Op::FloatUnary {
+            op: FloatUnary::Sqrt,
+            w,
+            dst,
+            a,
+        })
     }
 
-    fn choose(&mut self, frame: &mut Frame<'m>, kind: Kind, cond: Row, accept: Row, reject: Row) -> Result<Row> {
-        self.emit(frame, kind, |dst| Op::Select { kind, dst, cond, accept, reject })
+    fn choose(
+        &mut self,
+        frame: &mut Frame<'m>,
+        kind: Kind,
+        cond: Row,
+        accept: Row,
+        reject: Row,
+    ) -> Result<Row> {
+        self.emit(frame, kind, |dst| Op::Select {
+            kind,
+            dst,
+            cond,
+            accept,
+            reject,
+        })
     }
 
     pub(crate) fn dot_product(&mut self, frame: &mut Frame<'m>, args: &Args) -> Result<Val> {
         match args.kind {
-            Kind::Float(w) => Ok(Val::Rows(vec![self.dot(frame, w, &args.rows[0], &args.rows[1])?])),
+            Kind::Float(w) => Ok(Val::Rows(vec![self.dot(
+                frame,
+                w,
+                &args.rows[0],
+                &args.rows[1],
+            )?])),
             Kind::Int(t) => self.int_dot(frame, t, &args.rows[0], &args.rows[1]),
             Kind::Bool => unsupported("the dot product of truth values", args.span),
         }
@@ -54,7 +82,14 @@ impl<'m> Builder<'m> {
         for k in 0..2 {
             let parts = self.rows(frame, &[Kind::Int(t); 4]);
             let packing = Packing::Int { signed, clamp: false };
-            self.push(frame, Op::Unpack(Box::new(Pack { packing, word: args.at(k, 0), parts: parts.clone() })))?;
+            self.push(
+                frame,
+                Op::Unpack(Box::new(Pack {
+                    packing,
+                    word: args.at(k, 0),
+                    parts: parts.clone(),
+                })),
+            )?;
             sides.push(parts);
         }
         self.int_dot(frame, t, &sides[0], &sides[1])
@@ -96,7 +131,12 @@ impl<'m> Builder<'m> {
         let w = args.width()?;
         if let [a] = args.rows[0][..] {
             // The length of a scalar is its magnitude; the inherited formula's error is the root's.
-            return self.map(frame, args.kind, &[a], |dst, a| Op::FloatUnary { op: FloatUnary::Abs, w, dst, a });
+            return self.map(frame, args.kind, &[a], |dst, a| Op::FloatUnary {
+                op: FloatUnary::Abs,
+                w,
+                dst,
+                a,
+            });
         }
         Ok(Val::Rows(vec![self.norm(frame, w, &args.rows[0])?]))
     }
@@ -125,7 +165,13 @@ impl<'m> Builder<'m> {
         let w = args.width()?;
         let a = self.dot(frame, w, &args.rows[2], &args.rows[1])?;
         let b = self.float(w, 0.0);
-        let cond = self.emit(frame, Kind::Bool, |dst| Op::FloatCompare { op: Compare::Less, w, dst, a, b })?;
+        let cond = self.emit(frame, Kind::Bool, |dst| Op::FloatCompare {
+            op: Compare::Less,
+            w,
+            dst,
+            a,
+            b,
+        })?;
         let mut out = Vec::new();
         for &x in &args.rows[0] {
             let flipped = self.neg(frame, w, x)?;
@@ -158,14 +204,23 @@ impl<'m> Builder<'m> {
         let zz = self.mul(frame, w, z, z)?;
         let bent = self.mul(frame, w, zz, sine)?;
         let k = self.sub(frame, w, one, bent)?;
-        let total = self.emit(frame, Kind::Bool, |dst| Op::FloatCompare { op: Compare::Less, w, dst, a: k, b: zero })?;
+        let total = self.emit(frame, Kind::Bool, |dst| Op::FloatCompare {
+            op: Compare::Less,
+            w,
+            dst,
+            a: k,
+            b: zero,
+        })?;
         let guarded = self.float_binary(frame, FloatBinary::Max, w, k, zero)?;
         let root = self.sqrt(frame, w, guarded)?;
         let zd = self.mul(frame, w, z, d)?;
         let factor = self.sum(frame, w, &[zd, root])?;
         let mut out = Vec::new();
         for i in 0..args.rows[0].len() {
-            let (p, q) = (self.mul(frame, w, z, args.at(0, i))?, self.mul(frame, w, factor, args.at(1, i))?);
+            let (p, q) = (
+                self.mul(frame, w, z, args.at(0, i))?,
+                self.mul(frame, w, factor, args.at(1, i))?,
+            );
             let value = self.sub(frame, w, p, q)?;
             out.push(self.choose(frame, args.kind, total, zero, value)?);
         }
@@ -173,14 +228,34 @@ impl<'m> Builder<'m> {
     }
 
     /// The determinant by expansion along the first column. WGSL states no accuracy for it; the bounds are those of this formula.
-    pub(crate) fn determinant(&mut self, frame: &mut Frame<'m>, args: &Args, (n, _): (usize, usize)) -> Result<Val> {
+    pub(crate) fn determinant(
+        &mut self,
+        frame: &mut Frame<'m>,
+        args: &Args,
+        (n, _): (usize, usize),
+    ) -> Result<Val> {
         let w = args.width()?;
         let all: Vec<usize> = (0..n).collect();
-        Ok(Val::Rows(vec![self.cofactor_sum(frame, w, &args.rows[0], n, &all, &all)?]))
+        Ok(Val::Rows(vec![self.cofactor_sum(
+            frame,
+            w,
+            &args.rows[0],
+            n,
+            &all,
+            &all,
+        )?]))
     }
 
     /// The determinant of the given columns and rows of an `n` by `n` matrix.
-    fn cofactor_sum(&mut self, frame: &mut Frame<'m>, w: Width, m: &[Row], n: usize, columns: &[usize], rows: &[usize]) -> Result<Row> {
+    fn cofactor_sum(
+        &mut self,
+        frame: &mut Frame<'m>,
+        w: Width,
+        m: &[Row],
+        n: usize,
+        columns: &[usize],
+        rows: &[usize],
+    ) -> Result<Row> {
         let at = |c: usize, r: usize| m[c * n + r];
         if let (&[c0, c1], &[r0, r1]) = (columns, rows) {
             return self.minor(frame, w, [at(c0, r0), at(c1, r1), at(c1, r0), at(c0, r1)]);
@@ -193,13 +268,22 @@ impl<'m> Builder<'m> {
             let rest: Vec<usize> = rows.iter().copied().filter(|&x| x != r).collect();
             let minor = self.cofactor_sum(frame, w, m, n, &columns[1..], &rest)?;
             let term = self.mul(frame, w, at(columns[0], r), minor)?;
-            terms.push(if i % 2 == 0 { term } else { self.neg(frame, w, term)? });
+            terms.push(if i % 2 == 0 {
+                term
+            } else {
+                self.neg(frame, w, term)?
+            });
         }
         self.sum(frame, w, &terms)
     }
 
     /// The adjugate over the determinant.
-    pub(crate) fn inverse(&mut self, frame: &mut Frame<'m>, args: &Args, (n, _): (usize, usize)) -> Result<Val> {
+    pub(crate) fn inverse(
+        &mut self,
+        frame: &mut Frame<'m>,
+        args: &Args,
+        (n, _): (usize, usize),
+    ) -> Result<Val> {
         let w = args.width()?;
         let determinant = self.determinant(frame, args, (n, n))?.rows(args.span)?[0];
         let mut out = Vec::new();
@@ -207,7 +291,11 @@ impl<'m> Builder<'m> {
             for row in 0..n {
                 let without = |x: usize| (0..n).filter(|&k| k != x).collect::<Vec<_>>();
                 let minor = self.cofactor_sum(frame, w, &args.rows[0], n, &without(row), &without(column))?;
-                let signed = if (column + row) % 2 == 0 { minor } else { self.neg(frame, w, minor)? };
+                let signed = if (column + row) % 2 == 0 {
+                    minor
+                } else {
+                    self.neg(frame, w, minor)?
+                };
                 out.push(self.float_binary(frame, FloatBinary::Divide, w, signed, determinant)?);
             }
         }
@@ -235,12 +323,20 @@ impl<'m> Builder<'m> {
         let Kind::Int(t) = args.kind else {
             return unsupported("a bit field of floats", args.span);
         };
-        let u = IntType { signed: false, bits: t.bits };
+        let u = IntType {
+            signed: false,
+            bits: t.bits,
+        };
         let field = self.field(frame, t, args.at(2, 0), args.at(3, 0))?;
         let ones = self.int(u, u.max());
         let run = self.int_op(frame, IntBinary::ShiftRight, u, ones, field.right)?;
         let mask = self.int_op(frame, IntBinary::ShiftLeft, u, run, field.offset)?;
-        let mask = self.emit(frame, args.kind, |dst| Op::Convert { from: Kind::Int(u), to: Kind::Int(t), dst, a: mask })?;
+        let mask = self.emit(frame, args.kind, |dst| Op::Convert {
+            from: Kind::Int(u),
+            to: Kind::Int(t),
+            dst,
+            a: mask,
+        })?;
         let mut out = Vec::new();
         for i in 0..args.rows[0].len() {
             let moved = self.int_op(frame, IntBinary::ShiftLeft, t, args.at(1, i), field.offset)?;
@@ -262,8 +358,19 @@ impl<'m> Builder<'m> {
         let count = self.int_op(frame, IntBinary::Min, u, count, room)?;
         let left = self.int_op(frame, IntBinary::Subtract, u, room, count)?;
         let right = self.int_op(frame, IntBinary::Subtract, u, size, count)?;
-        let empty = self.emit(frame, Kind::Bool, |dst| Op::IntCompare { op: Compare::Equal, t: u, dst, a: count, b: zero })?;
-        Ok(Field { offset, left, right, empty })
+        let empty = self.emit(frame, Kind::Bool, |dst| Op::IntCompare {
+            op: Compare::Equal,
+            t: u,
+            dst,
+            a: count,
+            b: zero,
+        })?;
+        Ok(Field {
+            offset,
+            left,
+            right,
+            empty,
+        })
     }
 }
 

@@ -8,7 +8,12 @@ use crate::kind::{IntType, Kind};
 use naga::{Expression, Handle, SampleLevel, Span};
 
 impl<'m> Builder<'m> {
-    pub(crate) fn image_sample(&mut self, frame: &mut Frame<'m>, handle: Handle<Expression>, span: Span) -> Result<Val> {
+    pub(crate) fn image_sample(
+        &mut self,
+        frame: &mut Frame<'m>,
+        handle: Handle<Expression>,
+        span: Span,
+    ) -> Result<Val> {
         let Expression::ImageSample {
             image,
             sampler,
@@ -32,7 +37,10 @@ impl<'m> Builder<'m> {
             sampler: self.value(frame, sampler)?.handle(span)?,
             coordinate: self.scalars(frame, coordinate)?,
             layer: array_index.map(|h| self.integer(frame, h)).transpose()?,
-            offset: offset.map(|h| self.scalars(frame, h)).transpose()?.unwrap_or_default(),
+            offset: offset
+                .map(|h| self.scalars(frame, h))
+                .transpose()?
+                .unwrap_or_default(),
             level,
             gather: gather.map(|c| c as u8),
             reference: depth_ref.map(|h| self.scalar(frame, h)).transpose()?,
@@ -56,12 +64,27 @@ impl<'m> Builder<'m> {
                 Kind::Float(_) | Kind::Bool => Level::Exact(self.scalar(frame, h)?),
             },
             SampleLevel::Bias(h) => Level::Bias(self.scalar(frame, h)?),
-            SampleLevel::Gradient { x, y } => Level::Gradient { x: self.scalars(frame, x)?, y: self.scalars(frame, y)? },
+            SampleLevel::Gradient { x, y } => Level::Gradient {
+                x: self.scalars(frame, x)?,
+                y: self.scalars(frame, y)?,
+            },
         })
     }
 
-    pub(crate) fn image_load(&mut self, frame: &mut Frame<'m>, handle: Handle<Expression>, span: Span) -> Result<Val> {
-        let Expression::ImageLoad { image, coordinate, array_index, sample, level } = frame.function.expressions[handle] else {
+    pub(crate) fn image_load(
+        &mut self,
+        frame: &mut Frame<'m>,
+        handle: Handle<Expression>,
+        span: Span,
+    ) -> Result<Val> {
+        let Expression::ImageLoad {
+            image,
+            coordinate,
+            array_index,
+            sample,
+            level,
+        } = frame.function.expressions[handle]
+        else {
             return unsupported("another expression", span);
         };
         let kind = self.kind_of(frame, handle)?;
@@ -70,27 +93,53 @@ impl<'m> Builder<'m> {
         let sample = sample.map(|h| self.integer(frame, h)).transpose()?;
         let level = level.map(|h| self.integer(frame, h)).transpose()?;
         let rows = self.rows(frame, &vec![kind; parts as usize]);
-        let load = ImageLoad { image, coordinate, layer, sample, level, dst: rows[0], parts, kind };
+        let load = ImageLoad {
+            image,
+            coordinate,
+            layer,
+            sample,
+            level,
+            dst: rows[0],
+            parts,
+            kind,
+        };
         self.push(frame, Op::ImageLoad(Box::new(load)))?;
         Ok(Val::Rows(rows))
     }
 
-    pub(crate) fn image_query(&mut self, frame: &mut Frame<'m>, image: Handle<Expression>, query: naga::ImageQuery, span: Span) -> Result<Val> {
+    pub(crate) fn image_query(
+        &mut self,
+        frame: &mut Frame<'m>,
+        image: Handle<Expression>,
+        query: naga::ImageQuery,
+        span: Span,
+    ) -> Result<Val> {
         let dim = match *self.type_of(frame, image) {
             naga::TypeInner::Image { dim, .. } => dim,
             _ => return unsupported("a query of something else than a texture", span),
         };
         let image = self.value(frame, image)?.handle(span)?;
         let (query, level, parts) = match query {
-            naga::ImageQuery::Size { level } => {
-                (Query::Size, level.map(|h| self.integer(frame, h)).transpose()?, size_parts(dim))
-            }
+            naga::ImageQuery::Size { level } => (
+                Query::Size,
+                level.map(|h| self.integer(frame, h)).transpose()?,
+                size_parts(dim),
+            ),
             naga::ImageQuery::NumLevels => (Query::Levels, None, 1),
             naga::ImageQuery::NumLayers => (Query::Layers, None, 1),
             naga::ImageQuery::NumSamples => (Query::Samples, None, 1),
         };
         let rows = self.rows(frame, &vec![Kind::Int(IntType::U32); parts as usize]);
-        self.push(frame, Op::ImageQuery(Box::new(ImageQuery { image, query, level, dst: rows[0], parts })))?;
+        self.push(
+            frame,
+            Op::ImageQuery(Box::new(ImageQuery {
+                image,
+                query,
+                level,
+                dst: rows[0],
+                parts,
+            })),
+        )?;
         Ok(Val::Rows(rows))
     }
 }

@@ -15,11 +15,17 @@ pub(crate) struct Types<'m> {
 }
 
 pub(crate) fn unsupported<T>(what: impl Into<String>, span: Span) -> Result<T> {
-    Err(Error::Unsupported { what: what.into(), span })
+    Err(Error::Unsupported {
+        what: what.into(),
+        span,
+    })
 }
 
 pub(crate) fn kind(scalar: Scalar) -> Result<Kind> {
-    Kind::of(scalar).map_or_else(|| unsupported(format!("the scalar type {scalar:?}"), Span::UNDEFINED), Ok)
+    Kind::of(scalar).map_or_else(
+        || unsupported(format!("the scalar type {scalar:?}"), Span::UNDEFINED),
+        Ok,
+    )
 }
 
 impl<'m> Types<'m> {
@@ -58,15 +64,17 @@ impl<'m> Types<'m> {
                 let one = self.scalars_wide(self.inner(base))?;
                 Ok(one.saturating_mul(u64::from(self.length(size)?.unwrap_or(1))))
             }
-            TypeInner::Struct { ref members, .. } => {
-                members.iter().try_fold(0, |n, m| Ok(self.scalars_wide(self.inner(m.ty))?.saturating_add(n)))
-            }
+            TypeInner::Struct { ref members, .. } => members.iter().try_fold(0, |n, m| {
+                Ok(self.scalars_wide(self.inner(m.ty))?.saturating_add(n))
+            }),
             TypeInner::Pointer { .. }
             | TypeInner::ValuePointer { .. }
             | TypeInner::Image { .. }
             | TypeInner::Sampler { .. } => Ok(0),
             TypeInner::CooperativeMatrix { .. } => unsupported("cooperative matrices", Span::UNDEFINED),
-            TypeInner::AccelerationStructure { .. } => unsupported("acceleration structures", Span::UNDEFINED),
+            TypeInner::AccelerationStructure { .. } => {
+                unsupported("acceleration structures", Span::UNDEFINED)
+            }
             TypeInner::RayQuery { .. } => unsupported("ray queries", Span::UNDEFINED),
             TypeInner::BindingArray { .. } => unsupported("a binding array of buffers", Span::UNDEFINED),
         }
@@ -77,7 +85,11 @@ impl<'m> Types<'m> {
         match *inner {
             TypeInner::Scalar(s) | TypeInner::Atomic(s) => out.push(kind(s)?),
             TypeInner::Vector { size, scalar } => repeat(out, kind(scalar)?, size as usize),
-            TypeInner::Matrix { columns, rows, scalar } => repeat(out, kind(scalar)?, columns as usize * rows as usize),
+            TypeInner::Matrix {
+                columns,
+                rows,
+                scalar,
+            } => repeat(out, kind(scalar)?, columns as usize * rows as usize),
             TypeInner::Array { base, size, .. } => {
                 for _ in 0..self.length(size)?.unwrap_or(1) {
                     self.kinds(self.inner(base), out)?;
@@ -140,17 +152,23 @@ impl<'m> Types<'m> {
     fn lay_out(&self, ty: Handle<Type>, at: usize, out: &mut BufferLayout) -> Result<()> {
         match *self.inner(ty) {
             TypeInner::Array { base, size, stride } => match self.length(size)? {
-                Some(n) => (0..n as usize).try_for_each(|k| self.lay_out(base, at + k * stride as usize, out)),
+                Some(n) => {
+                    (0..n as usize).try_for_each(|k| self.lay_out(base, at + k * stride as usize, out))
+                }
                 None => {
                     let mut element = BufferLayout::default();
                     self.lay_out(base, 0, &mut element)?;
-                    out.tail = Some(Tail { start: at, stride: stride as usize, element: element.fixed });
+                    out.tail = Some(Tail {
+                        start: at,
+                        stride: stride as usize,
+                        element: element.fixed,
+                    });
                     Ok(())
                 }
             },
-            TypeInner::Struct { ref members, .. } => {
-                members.iter().try_for_each(|m| self.lay_out(m.ty, at + m.offset as usize, out))
-            }
+            TypeInner::Struct { ref members, .. } => members
+                .iter()
+                .try_for_each(|m| self.lay_out(m.ty, at + m.offset as usize, out)),
             ref inner => self.lay_out_numeric(inner, at, out),
         }
     }
@@ -162,7 +180,11 @@ impl<'m> Types<'m> {
         match *inner {
             TypeInner::Scalar(s) | TypeInner::Atomic(s) => column(kind(s)?, 1, at),
             TypeInner::Vector { size, scalar } => column(kind(scalar)?, size as usize, at),
-            TypeInner::Matrix { columns, rows, scalar } => {
+            TypeInner::Matrix {
+                columns,
+                rows,
+                scalar,
+            } => {
                 let k = kind(scalar)?;
                 let stride = column_stride(rows) * k.bytes();
                 (0..columns as usize).for_each(|c| column(k, rows as usize, at + c * stride));
@@ -207,7 +229,9 @@ pub(crate) struct Tail {
 impl BufferLayout {
     /// Elements of the tail in a buffer of that many bytes.
     pub(crate) fn elements(&self, bytes: usize) -> usize {
-        self.tail.as_ref().map_or(0, |t| bytes.saturating_sub(t.start) / t.stride.max(1))
+        self.tail
+            .as_ref()
+            .map_or(0, |t| bytes.saturating_sub(t.start) / t.stride.max(1))
     }
 
     /// Scalars of a buffer with that many tail elements.
@@ -217,7 +241,9 @@ impl BufferLayout {
 
     /// Bytes of a buffer with that many tail elements.
     pub(crate) fn bytes(&self, elements: usize) -> usize {
-        self.tail.as_ref().map_or(self.fixed_bytes, |t| t.start + t.stride * elements)
+        self.tail
+            .as_ref()
+            .map_or(self.fixed_bytes, |t| t.start + t.stride * elements)
     }
 
     /// Byte offset and kind of the scalar with the given number.

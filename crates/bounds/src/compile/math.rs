@@ -36,7 +36,13 @@ impl Args {
 }
 
 impl<'m> Builder<'m> {
-    pub(crate) fn math(&mut self, frame: &mut Frame<'m>, fun: M, args: [Option<Handle<Expression>>; 4], span: Span) -> Result<Val> {
+    pub(crate) fn math(
+        &mut self,
+        frame: &mut Frame<'m>,
+        fun: M,
+        args: [Option<Handle<Expression>>; 4],
+        span: Span,
+    ) -> Result<Val> {
         let kind = match args[0] {
             Some(first) => self.kind_of(frame, first)?,
             None => return unsupported("a function without arguments", span),
@@ -116,17 +122,59 @@ impl<'m> Builder<'m> {
             M::Pack2x16snorm => self.pack(frame, &args, Packing::Snorm { bits: 16 }),
             M::Pack2x16unorm => self.pack(frame, &args, Packing::Unorm { bits: 16 }),
             M::Pack2x16float => self.pack(frame, &args, Packing::Half),
-            M::Pack4xI8 => self.pack(frame, &args, Packing::Int { signed: true, clamp: false }),
-            M::Pack4xU8 => self.pack(frame, &args, Packing::Int { signed: false, clamp: false }),
-            M::Pack4xI8Clamp => self.pack(frame, &args, Packing::Int { signed: true, clamp: true }),
-            M::Pack4xU8Clamp => self.pack(frame, &args, Packing::Int { signed: false, clamp: true }),
+            M::Pack4xI8 => self.pack(
+                frame,
+                &args,
+                Packing::Int {
+                    signed: true,
+                    clamp: false,
+                },
+            ),
+            M::Pack4xU8 => self.pack(
+                frame,
+                &args,
+                Packing::Int {
+                    signed: false,
+                    clamp: false,
+                },
+            ),
+            M::Pack4xI8Clamp => self.pack(
+                frame,
+                &args,
+                Packing::Int {
+                    signed: true,
+                    clamp: true,
+                },
+            ),
+            M::Pack4xU8Clamp => self.pack(
+                frame,
+                &args,
+                Packing::Int {
+                    signed: false,
+                    clamp: true,
+                },
+            ),
             M::Unpack4x8snorm => self.unpack(frame, &args, Packing::Snorm { bits: 8 }),
             M::Unpack4x8unorm => self.unpack(frame, &args, Packing::Unorm { bits: 8 }),
             M::Unpack2x16snorm => self.unpack(frame, &args, Packing::Snorm { bits: 16 }),
             M::Unpack2x16unorm => self.unpack(frame, &args, Packing::Unorm { bits: 16 }),
             M::Unpack2x16float => self.unpack(frame, &args, Packing::Half),
-            M::Unpack4xI8 => self.unpack(frame, &args, Packing::Int { signed: true, clamp: false }),
-            M::Unpack4xU8 => self.unpack(frame, &args, Packing::Int { signed: false, clamp: false }),
+            M::Unpack4xI8 => self.unpack(
+                frame,
+                &args,
+                Packing::Int {
+                    signed: true,
+                    clamp: false,
+                },
+            ),
+            M::Unpack4xU8 => self.unpack(
+                frame,
+                &args,
+                Packing::Int {
+                    signed: false,
+                    clamp: false,
+                },
+            ),
         }
     }
 
@@ -139,14 +187,24 @@ impl<'m> Builder<'m> {
 
     fn each(&mut self, frame: &mut Frame<'m>, args: &Args, op: FloatUnary) -> Result<Val> {
         let w = args.width()?;
-        self.map(frame, args.kind, &args.rows[0], |dst, a| Op::FloatUnary { op, w, dst, a })
+        self.map(frame, args.kind, &args.rows[0], |dst, a| Op::FloatUnary {
+            op,
+            w,
+            dst,
+            a,
+        })
     }
 
     fn each_int(&mut self, frame: &mut Frame<'m>, args: &Args, op: IntUnary) -> Result<Val> {
         let Kind::Int(t) = args.kind else {
             return unsupported("a bit function of floats", args.span);
         };
-        self.map(frame, args.kind, &args.rows[0], |dst, a| Op::IntUnary { op, t, dst, a })
+        self.map(frame, args.kind, &args.rows[0], |dst, a| Op::IntUnary {
+            op,
+            t,
+            dst,
+            a,
+        })
     }
 
     fn pairs(&mut self, frame: &mut Frame<'m>, args: &Args, op: FloatBinary) -> Result<Val> {
@@ -168,7 +226,13 @@ impl<'m> Builder<'m> {
         Ok(Val::Rows(out))
     }
 
-    fn abs_or_sign(&mut self, frame: &mut Frame<'m>, args: &Args, float: FloatUnary, int: IntUnary) -> Result<Val> {
+    fn abs_or_sign(
+        &mut self,
+        frame: &mut Frame<'m>,
+        args: &Args,
+        float: FloatUnary,
+        int: IntUnary,
+    ) -> Result<Val> {
         match args.kind {
             Kind::Float(_) => self.each(frame, args, float),
             Kind::Int(_) => self.each_int(frame, args, int),
@@ -176,7 +240,13 @@ impl<'m> Builder<'m> {
         }
     }
 
-    fn min_or_max(&mut self, frame: &mut Frame<'m>, args: &Args, float: FloatBinary, int: IntBinary) -> Result<Val> {
+    fn min_or_max(
+        &mut self,
+        frame: &mut Frame<'m>,
+        args: &Args,
+        float: FloatBinary,
+        int: IntBinary,
+    ) -> Result<Val> {
         match args.kind {
             Kind::Float(_) => self.pairs(frame, args, float),
             Kind::Int(t) => self.int_pairs(frame, args, int, t),
@@ -192,7 +262,14 @@ impl<'m> Builder<'m> {
         Ok(Val::Rows(out))
     }
 
-    pub(crate) fn int_op(&mut self, frame: &mut Frame<'m>, op: IntBinary, t: IntType, a: Row, b: Row) -> Result<Row> {
+    pub(crate) fn int_op(
+        &mut self,
+        frame: &mut Frame<'m>,
+        op: IntBinary,
+        t: IntType,
+        a: Row,
+        b: Row,
+    ) -> Result<Row> {
         self.emit(frame, Kind::Int(t), |dst| Op::IntBinary { op, t, dst, a, b })
     }
 
@@ -218,7 +295,14 @@ impl<'m> Builder<'m> {
         let w = args.width()?;
         let mut out = self.each(frame, args, FloatUnary::FrexpFract)?.rows(args.span)?;
         let exponent = Kind::Int(IntType::I32);
-        out.extend(self.map(frame, exponent, &args.rows[0], |dst, a| Op::FrexpExponent { w, dst, a })?.rows(args.span)?);
+        out.extend(
+            self.map(frame, exponent, &args.rows[0], |dst, a| Op::FrexpExponent {
+                w,
+                dst,
+                a,
+            })?
+            .rows(args.span)?,
+        );
         Ok(Val::Rows(out))
     }
 
@@ -234,7 +318,9 @@ impl<'m> Builder<'m> {
 
     fn pack(&mut self, frame: &mut Frame<'m>, args: &Args, packing: Packing) -> Result<Val> {
         let parts = args.rows[0].clone();
-        let word = self.emit(frame, Kind::Int(IntType::U32), |word| Op::Pack(Box::new(Pack { packing, word, parts })))?;
+        let word = self.emit(frame, Kind::Int(IntType::U32), |word| {
+            Op::Pack(Box::new(Pack { packing, word, parts }))
+        })?;
         Ok(Val::Rows(vec![word]))
     }
 
@@ -245,12 +331,23 @@ impl<'m> Builder<'m> {
         };
         let parts = self.rows(frame, &vec![kind; 32 / packing.bits() as usize]);
         let word = args.at(0, 0);
-        self.push(frame, Op::Unpack(Box::new(Pack { packing, word, parts: parts.clone() })))?;
+        self.push(
+            frame,
+            Op::Unpack(Box::new(Pack {
+                packing,
+                word,
+                parts: parts.clone(),
+            })),
+        )?;
         Ok(Val::Rows(parts))
     }
 }
 
 fn transpose(args: &Args, (columns, rows): (usize, usize)) -> Val {
     let m = &args.rows[0];
-    Val::Rows((0..rows).flat_map(|r| (0..columns).map(move |c| m[c * rows + r])).collect())
+    Val::Rows(
+        (0..rows)
+            .flat_map(|r| (0..columns).map(move |c| m[c * rows + r]))
+            .collect(),
+    )
 }

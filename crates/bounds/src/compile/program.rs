@@ -9,8 +9,8 @@ use naga::back::PipelineConstants;
 use naga::back::pipeline_constants::process_overrides;
 use naga::valid::ModuleInfo;
 use naga::{
-    AddressSpace, Binding, BuiltIn, EntryPoint, GlobalVariable, ImageClass, ImageDimension, Module, ShaderStage, Span, StorageAccess,
-    StorageFormat, Type, TypeInner,
+    AddressSpace, Binding, BuiltIn, EntryPoint, GlobalVariable, ImageClass, ImageDimension, Module,
+    ShaderStage, Span, StorageAccess, StorageFormat, Type, TypeInner,
 };
 
 /// One entry point of a module, ready to be evaluated over any domain.
@@ -37,11 +37,27 @@ pub(crate) struct Resource {
 
 #[derive(Clone, Debug)]
 pub(crate) enum ResourceKind {
-    Buffer { layout: BufferLayout, writable: bool },
-    Workgroup { kinds: Vec<Kind> },
-    Texture { dim: ImageDimension, arrayed: bool, class: ImageClass, count: Option<u32> },
-    StorageTexture { dim: ImageDimension, format: StorageFormat, access: StorageAccess },
-    Sampler { comparison: bool },
+    Buffer {
+        layout: BufferLayout,
+        writable: bool,
+    },
+    Workgroup {
+        kinds: Vec<Kind>,
+    },
+    Texture {
+        dim: ImageDimension,
+        arrayed: bool,
+        class: ImageClass,
+        count: Option<u32>,
+    },
+    StorageTexture {
+        dim: ImageDimension,
+        format: StorageFormat,
+        access: StorageAccess,
+    },
+    Sampler {
+        comparison: bool,
+    },
 }
 
 /// A stage input or output and the rows that hold it.
@@ -64,10 +80,25 @@ impl Program {
     ///
     /// # Errors
     /// As [`Program::new`], and [`Error::Overrides`] for constants that are missing, unknown or out of range.
-    pub fn with_constants(module: &Module, info: &ModuleInfo, name: &str, constants: &PipelineConstants) -> Result<Self> {
-        let stage = module.entry_points.iter().find(|e| e.name == name).map(|e| e.stage).ok_or_else(|| no_entry(module, name))?;
-        let (module, info) = process_overrides(module, info, Some((stage, name)), constants).map_err(Box::new)?;
-        let index = module.entry_points.iter().position(|e| e.name == name).ok_or_else(|| no_entry(&module, name))?;
+    pub fn with_constants(
+        module: &Module,
+        info: &ModuleInfo,
+        name: &str,
+        constants: &PipelineConstants,
+    ) -> Result<Self> {
+        let stage = module
+            .entry_points
+            .iter()
+            .find(|e| e.name == name)
+            .map(|e| e.stage)
+            .ok_or_else(|| no_entry(module, name))?;
+        let (module, info) =
+            process_overrides(module, info, Some((stage, name)), constants).map_err(Box::new)?;
+        let index = module
+            .entry_points
+            .iter()
+            .position(|e| e.name == name)
+            .ok_or_else(|| no_entry(&module, name))?;
         compile(&module, &info, index)
     }
 
@@ -103,7 +134,12 @@ impl Program {
                 Node::If { accept, reject, .. } => 1 + block(accept) + block(reject),
                 Node::Switch { cases, .. } => 1 + cases.iter().map(|c| block(&c.body)).sum::<usize>(),
                 Node::Loop(l) => 1 + block(&l.body) + block(&l.continuing),
-                Node::Break | Node::Continue | Node::Return | Node::Kill | Node::Barrier | Node::Call { .. } => 1,
+                Node::Break
+                | Node::Continue
+                | Node::Return
+                | Node::Kill
+                | Node::Barrier
+                | Node::Call { .. } => 1,
             }
         }
         self.code.functions.iter().map(|f| block(&f.body)).sum()
@@ -111,8 +147,16 @@ impl Program {
 }
 
 fn no_entry(module: &Module, name: &str) -> Error {
-    let available = module.entry_points.iter().map(|e| e.name.as_str()).collect::<Vec<_>>().join(", ");
-    Error::NoEntryPoint { name: name.into(), available }
+    let available = module
+        .entry_points
+        .iter()
+        .map(|e| e.name.as_str())
+        .collect::<Vec<_>>()
+        .join(", ");
+    Error::NoEntryPoint {
+        name: name.into(),
+        available,
+    }
 }
 
 fn compile(module: &Module, info: &ModuleInfo, index: usize) -> Result<Program> {
@@ -150,7 +194,9 @@ fn compile(module: &Module, info: &ModuleInfo, index: usize) -> Result<Program> 
 /// Initial values of private variables are set before the entry point's first statement.
 fn prepend(code: &mut Code, entry: usize, initial: Vec<super::code::Instr>) {
     if !initial.is_empty() {
-        code.functions[entry].body.insert(0, super::code::Node::Run(initial.into_boxed_slice()));
+        code.functions[entry]
+            .body
+            .insert(0, super::code::Node::Run(initial.into_boxed_slice()));
     }
 }
 
@@ -166,9 +212,9 @@ fn place_global(
     }
     let kind = match variable.space {
         AddressSpace::Private => return private(builder, variable, initial).map(Some),
-        AddressSpace::WorkGroup => {
-            ResourceKind::Workgroup { kinds: builder.types.kinds_of(builder.types.inner(variable.ty))? }
-        }
+        AddressSpace::WorkGroup => ResourceKind::Workgroup {
+            kinds: builder.types.kinds_of(builder.types.inner(variable.ty))?,
+        },
         AddressSpace::Uniform => buffer(builder, variable, false)?,
         AddressSpace::Storage { access } => buffer(builder, variable, access.contains(StorageAccess::STORE))?,
         AddressSpace::Immediate => buffer(builder, variable, false)?,
@@ -182,12 +228,28 @@ fn place_global(
     let is_handle = variable.space == AddressSpace::Handle;
     let binding = variable.binding.map(|b| (b.group, b.binding));
     // Immediate data has no binding; it is given under the reserved group number of `Bindings::immediate`.
-    let binding = if variable.space == AddressSpace::Immediate { Some(crate::bindings::IMMEDIATE) } else { binding };
-    resources.push(Resource { name: variable.name.clone().unwrap_or_default(), binding, kind });
-    Ok(Some(if is_handle { Global::Handle(id) } else { Global::Place(Root::Memory(id)) }))
+    let binding = if variable.space == AddressSpace::Immediate {
+        Some(crate::bindings::IMMEDIATE)
+    } else {
+        binding
+    };
+    resources.push(Resource {
+        name: variable.name.clone().unwrap_or_default(),
+        binding,
+        kind,
+    });
+    Ok(Some(if is_handle {
+        Global::Handle(id)
+    } else {
+        Global::Place(Root::Memory(id))
+    }))
 }
 
-fn private(builder: &mut Builder<'_>, variable: &GlobalVariable, initial: &mut Vec<super::code::Instr>) -> Result<Global> {
+fn private(
+    builder: &mut Builder<'_>,
+    variable: &GlobalVariable,
+    initial: &mut Vec<super::code::Instr>,
+) -> Result<Global> {
     let kinds = builder.types.kinds_of(builder.types.inner(variable.ty))?;
     let values: Vec<Row> = match variable.init {
         Some(init) => builder.global_expression(init)?.rows(Span::UNDEFINED)?,
@@ -197,27 +259,50 @@ fn private(builder: &mut Builder<'_>, variable: &GlobalVariable, initial: &mut V
     builder.code.kinds.extend(&kinds);
     builder.code.privates.push((base, kinds.len() as u32));
     let span = builder.span(Span::UNDEFINED);
-    initial.extend((base..).zip(values).map(|(dst, src)| super::code::Instr { op: Op::Copy { dst, src }, span }));
-    Ok(Global::Place(Root::Rows { base, len: kinds.len() as u32 }))
+    initial.extend((base..).zip(values).map(|(dst, src)| super::code::Instr {
+        op: Op::Copy { dst, src },
+        span,
+    }));
+    Ok(Global::Place(Root::Rows {
+        base,
+        len: kinds.len() as u32,
+    }))
 }
 
 fn buffer(builder: &Builder<'_>, variable: &GlobalVariable, writable: bool) -> Result<ResourceKind> {
-    Ok(ResourceKind::Buffer { layout: builder.types.buffer(variable.ty)?, writable })
+    Ok(ResourceKind::Buffer {
+        layout: builder.types.buffer(variable.ty)?,
+        writable,
+    })
 }
 
 fn handle(ty: &Type, builder: &Builder<'_>) -> Result<ResourceKind> {
     match ty.inner {
-        TypeInner::Image { dim, class: ImageClass::Storage { format, access }, .. } => {
-            Ok(ResourceKind::StorageTexture { dim, format, access })
-        }
-        TypeInner::Image { dim, arrayed, class } => Ok(ResourceKind::Texture { dim, arrayed, class, count: None }),
+        TypeInner::Image {
+            dim,
+            class: ImageClass::Storage { format, access },
+            ..
+        } => Ok(ResourceKind::StorageTexture { dim, format, access }),
+        TypeInner::Image { dim, arrayed, class } => Ok(ResourceKind::Texture {
+            dim,
+            arrayed,
+            class,
+            count: None,
+        }),
         TypeInner::Sampler { comparison } => Ok(ResourceKind::Sampler { comparison }),
         TypeInner::BindingArray { base, size } => match builder.types.inner(base) {
             TypeInner::Image { dim, arrayed, class } => {
                 let count = Some(builder.types.length(size)?.unwrap_or(u32::MAX));
-                Ok(ResourceKind::Texture { dim: *dim, arrayed: *arrayed, class: *class, count })
+                Ok(ResourceKind::Texture {
+                    dim: *dim,
+                    arrayed: *arrayed,
+                    class: *class,
+                    count,
+                })
             }
-            TypeInner::Sampler { comparison } => Ok(ResourceKind::Sampler { comparison: *comparison }),
+            TypeInner::Sampler { comparison } => Ok(ResourceKind::Sampler {
+                comparison: *comparison,
+            }),
             _ => unsupported("a binding array of buffers", Span::UNDEFINED),
         },
         _ => unsupported("a handle of this type", Span::UNDEFINED),
@@ -229,28 +314,57 @@ fn ports(builder: &Builder<'_>, entry: &EntryPoint, index: usize) -> Result<(Vec
     let mut inputs = Vec::new();
     for (argument, &(base, len)) in entry.function.arguments.iter().zip(&code.variables) {
         let rows: Vec<Row> = (base..base + len).collect();
-        split(builder, argument.ty, argument.binding.as_ref(), &rows, &mut inputs)?;
+        split(
+            builder,
+            argument.ty,
+            argument.binding.as_ref(),
+            &rows,
+            &mut inputs,
+        )?;
     }
     let mut outputs = Vec::new();
     if let Some(result) = &entry.function.result {
-        split(builder, result.ty, result.binding.as_ref(), &code.result, &mut outputs)?;
+        split(
+            builder,
+            result.ty,
+            result.binding.as_ref(),
+            &code.result,
+            &mut outputs,
+        )?;
     }
     Ok((inputs, outputs))
 }
 
 /// One port for a bound value, one for every member of a struct.
-fn split(builder: &Builder<'_>, ty: naga::Handle<Type>, binding: Option<&Binding>, rows: &[Row], out: &mut Vec<Port>) -> Result<()> {
+fn split(
+    builder: &Builder<'_>,
+    ty: naga::Handle<Type>,
+    binding: Option<&Binding>,
+    rows: &[Row],
+    out: &mut Vec<Port>,
+) -> Result<()> {
     let inner = builder.types.inner(ty);
     if let (None, TypeInner::Struct { members, .. }) = (binding, inner) {
         let mut at = 0;
         for member in members {
             let n = builder.types.scalars(builder.types.inner(member.ty))? as usize;
-            split(builder, member.ty, member.binding.as_ref(), &rows[at..at + n], out)?;
+            split(
+                builder,
+                member.ty,
+                member.binding.as_ref(),
+                &rows[at..at + n],
+                out,
+            )?;
             at += n;
         }
         return Ok(());
     }
-    let binding = binding.cloned().unwrap_or(Binding::BuiltIn(BuiltIn::PrimitiveIndex));
-    out.push(Port { binding, rows: rows.to_vec() });
+    let binding = binding
+        .cloned()
+        .unwrap_or(Binding::BuiltIn(BuiltIn::PrimitiveIndex));
+    out.push(Port {
+        binding,
+        rows: rows.to_vec(),
+    });
     Ok(())
 }

@@ -2,15 +2,16 @@
 
 use super::builder::{Builder, Frame, Val};
 use super::code::{
-    Atomic, AtomicOp, AtomicTarget, Case, Combine, Effects, ImageStore, Loop, Node, Op, Row, Subgroup, SubgroupOp,
+    Atomic, AtomicOp, AtomicTarget, Case, Combine, Effects, ImageStore, Loop, Node, Op, Row, Subgroup,
+    SubgroupOp,
 };
 use super::layout::unsupported;
 use crate::domain::ops::{FloatBinary, IntBinary};
 use crate::error::Result;
 use crate::kind::{IntType, Kind};
 use naga::{
-    AtomicFunction, Block, CollectiveOperation, Direction, Expression, Function, GatherMode, Handle, Span, Statement,
-    SubgroupOperation, SwitchCase, SwitchValue,
+    AtomicFunction, Block, CollectiveOperation, Direction, Expression, Function, GatherMode, Handle, Span,
+    Statement, SubgroupOperation, SwitchCase, SwitchValue,
 };
 
 impl<'m> Builder<'m> {
@@ -26,11 +27,11 @@ impl<'m> Builder<'m> {
     /// Compiles a block on its own.
     fn nested(&mut self, frame: &mut Frame<'m>, block: &'m Block) -> Result<super::code::Block> {
         frame.flush();
-        frame.known.clear();
+        frame.forget();
         let outer = std::mem::take(&mut frame.block);
         self.statements(frame, block)?;
         frame.flush();
-        frame.known.clear();
+        frame.forget();
         Ok(std::mem::replace(&mut frame.block, outer))
     }
 
@@ -38,9 +39,17 @@ impl<'m> Builder<'m> {
         match statement {
             Statement::Emit(range) => self.emit_range(frame, range.clone()),
             Statement::Block(block) => self.statements(frame, block),
-            Statement::If { condition, accept, reject } => self.if_statement(frame, *condition, accept, reject),
+            Statement::If {
+                condition,
+                accept,
+                reject,
+            } => self.if_statement(frame, *condition, accept, reject),
             Statement::Switch { selector, cases } => self.switch(frame, *selector, cases),
-            Statement::Loop { body, continuing, break_if } => self.loop_statement(frame, body, continuing, *break_if),
+            Statement::Loop {
+                body,
+                continuing,
+                break_if,
+            } => self.loop_statement(frame, body, continuing, *break_if),
             Statement::Break => self.jump(frame, Node::Break),
             Statement::Continue => self.jump(frame, Node::Continue),
             Statement::Return { value } => self.return_statement(frame, *value),
@@ -48,22 +57,47 @@ impl<'m> Builder<'m> {
             Statement::ControlBarrier(_) => self.barrier(frame),
             Statement::MemoryBarrier(_) => self.barrier(frame),
             Statement::Store { pointer, value } => self.store_statement(frame, *pointer, *value, span),
-            Statement::ImageStore { image, coordinate, array_index, value } => {
-                self.image_store(frame, *image, *coordinate, *array_index, *value, span)
+            Statement::ImageStore {
+                image,
+                coordinate,
+                array_index,
+                value,
+            } => self.image_store(frame, *image, *coordinate, *array_index, *value, span),
+            Statement::Atomic {
+                pointer,
+                fun,
+                value,
+                result,
+            } => self.atomic(frame, *pointer, fun, *value, *result, span),
+            Statement::ImageAtomic {
+                image,
+                coordinate,
+                array_index,
+                fun,
+                value,
+            } => self.image_atomic(frame, (*image, *coordinate, *array_index), fun, *value, span),
+            Statement::WorkGroupUniformLoad { pointer, result } => {
+                self.uniform_load(frame, *pointer, *result, span)
             }
-            Statement::Atomic { pointer, fun, value, result } => self.atomic(frame, *pointer, fun, *value, *result, span),
-            Statement::ImageAtomic { image, coordinate, array_index, fun, value } => {
-                self.image_atomic(frame, (*image, *coordinate, *array_index), fun, *value, span)
-            }
-            Statement::WorkGroupUniformLoad { pointer, result } => self.uniform_load(frame, *pointer, *result, span),
-            Statement::Call { function, arguments, result } => self.call(frame, *function, arguments, *result, span),
+            Statement::Call {
+                function,
+                arguments,
+                result,
+            } => self.call(frame, *function, arguments, *result, span),
             Statement::RayQuery { .. } => unsupported("ray queries", span),
             Statement::RayPipelineFunction(_) => unsupported("ray tracing pipelines", span),
             Statement::SubgroupBallot { result, predicate } => self.ballot(frame, *result, *predicate),
-            Statement::SubgroupGather { mode, argument, result } => self.gather(frame, *mode, *argument, *result),
-            Statement::SubgroupCollectiveOperation { op, collective_op, argument, result } => {
-                self.collective(frame, *op, *collective_op, *argument, *result, span)
-            }
+            Statement::SubgroupGather {
+                mode,
+                argument,
+                result,
+            } => self.gather(frame, *mode, *argument, *result),
+            Statement::SubgroupCollectiveOperation {
+                op,
+                collective_op,
+                argument,
+                result,
+            } => self.collective(frame, *op, *collective_op, *argument, *result, span),
             Statement::CooperativeStore { .. } => unsupported("cooperative matrices", span),
         }
     }
@@ -76,16 +110,32 @@ impl<'m> Builder<'m> {
         Ok(())
     }
 
-    fn if_statement(&mut self, frame: &mut Frame<'m>, condition: Handle<Expression>, accept: &'m Block, reject: &'m Block) -> Result<()> {
+    fn if_statement(
+        &mut self,
+        frame: &mut Frame<'m>,
+        condition: Handle<Expression>,
+        accept: &'m Block,
+        reject: &'m Block,
+    ) -> Result<()> {
         let span = frame.span;
         let cond = self.scalar(frame, condition)?;
         let accept = self.nested(frame, accept)?;
         let reject = self.nested(frame, reject)?;
-        frame.node(Node::If { cond, accept, reject, span });
+        frame.node(Node::If {
+            cond,
+            accept,
+            reject,
+            span,
+        });
         Ok(())
     }
 
-    fn switch(&mut self, frame: &mut Frame<'m>, selector: Handle<Expression>, cases: &'m [SwitchCase]) -> Result<()> {
+    fn switch(
+        &mut self,
+        frame: &mut Frame<'m>,
+        selector: Handle<Expression>,
+        cases: &'m [SwitchCase],
+    ) -> Result<()> {
         let span = frame.span;
         let (selector, int) = self.integer(frame, selector)?;
         let mut compiled = Vec::with_capacity(cases.len());
@@ -95,9 +145,18 @@ impl<'m> Builder<'m> {
                 SwitchValue::U32(x) => Some(i128::from(x)),
                 SwitchValue::Default => None,
             };
-            compiled.push(Case { value, body: self.nested(frame, &case.body)?, fall_through: case.fall_through });
+            compiled.push(Case {
+                value,
+                body: self.nested(frame, &case.body)?,
+                fall_through: case.fall_through,
+            });
         }
-        frame.node(Node::Switch { selector, int, cases: compiled, span });
+        frame.node(Node::Switch {
+            selector,
+            int,
+            cases: compiled,
+            span,
+        });
         Ok(())
     }
 
@@ -118,7 +177,13 @@ impl<'m> Builder<'m> {
         frame.flush();
         let continuing = std::mem::replace(&mut frame.block, outer);
         let effects = frame.effects.pop().unwrap_or_default();
-        frame.node(Node::Loop(Box::new(Loop { body, continuing, break_if, effects, span })));
+        frame.node(Node::Loop(Box::new(Loop {
+            body,
+            continuing,
+            break_if,
+            effects,
+            span,
+        })));
         Ok(())
     }
 
@@ -151,13 +216,25 @@ impl<'m> Builder<'m> {
         Ok(())
     }
 
-    fn store_statement(&mut self, frame: &mut Frame<'m>, pointer: Handle<Expression>, value: Handle<Expression>, span: Span) -> Result<()> {
+    fn store_statement(
+        &mut self,
+        frame: &mut Frame<'m>,
+        pointer: Handle<Expression>,
+        value: Handle<Expression>,
+        span: Span,
+    ) -> Result<()> {
         let values = self.scalars(frame, value)?;
         let place = self.value(frame, pointer)?.place(span)?;
         self.store(frame, place, values)
     }
 
-    fn uniform_load(&mut self, frame: &mut Frame<'m>, pointer: Handle<Expression>, result: Handle<Expression>, span: Span) -> Result<()> {
+    fn uniform_load(
+        &mut self,
+        frame: &mut Frame<'m>,
+        pointer: Handle<Expression>,
+        result: Handle<Expression>,
+        span: Span,
+    ) -> Result<()> {
         self.barrier(frame)?;
         let value = self.load(frame, pointer, span)?;
         frame.values.insert(result, value);
@@ -176,22 +253,34 @@ impl<'m> Builder<'m> {
         for &argument in arguments {
             values.push(self.value(frame, argument)?);
         }
-        let fixed = values.iter().map(|v| (!matches!(v, Val::Rows(_))).then(|| v.clone())).collect();
+        let fixed = values
+            .iter()
+            .map(|v| (!matches!(v, Val::Rows(_))).then(|| v.clone()))
+            .collect();
         let index = self.instance(function, fixed, span)?;
         let parameters = self.parameter_rows(index, function);
-        for (rows, value) in parameters.into_iter().zip(values.iter().filter(|v| matches!(v, Val::Rows(_)))) {
+        for (rows, value) in parameters
+            .into_iter()
+            .zip(values.iter().filter(|v| matches!(v, Val::Rows(_))))
+        {
             for (dst, src) in rows.into_iter().zip(value.clone().rows(span)?) {
                 self.push(frame, Op::Copy { dst, src })?;
             }
         }
-        let (effects, returned) = (self.code.functions[index].effects.clone(), self.code.functions[index].result.clone());
+        let (effects, returned) = (
+            self.code.functions[index].effects.clone(),
+            self.code.functions[index].result.clone(),
+        );
         frame.effect(|e| {
             let returns = e.returns;
             e.absorb(&effects);
             e.returns = returns;
         });
         let span = frame.span;
-        frame.node(Node::Call { function: index, span });
+        frame.node(Node::Call {
+            function: index,
+            span,
+        });
         if let Some(result) = result {
             let out = self.copies(frame, &returned)?;
             frame.values.insert(result, Val::Rows(out));
@@ -206,7 +295,10 @@ impl<'m> Builder<'m> {
             .iter()
             .filter(|a| self.types.scalars(self.types.inner(a.ty)).is_ok_and(|n| n > 0))
             .count();
-        self.code.functions[index].variables[..by_value].iter().map(|&(base, len)| (base..base + len).collect()).collect()
+        self.code.functions[index].variables[..by_value]
+            .iter()
+            .map(|&(base, len)| (base..base + len).collect())
+            .collect()
     }
 
     fn copies(&mut self, frame: &mut Frame<'m>, rows: &[Row]) -> Result<Vec<Row>> {
@@ -233,7 +325,16 @@ impl<'m> Builder<'m> {
         frame.effect(|e| {
             e.regions.insert(region);
         });
-        self.push(frame, Op::ImageStore(Box::new(ImageStore { image, coordinate, layer, values, kind })))
+        self.push(
+            frame,
+            Op::ImageStore(Box::new(ImageStore {
+                image,
+                coordinate,
+                layer,
+                values,
+                kind,
+            })),
+        )
     }
 
     fn atomic(
@@ -247,7 +348,14 @@ impl<'m> Builder<'m> {
     ) -> Result<()> {
         let place = self.value(frame, pointer)?.place(span)?;
         self.note_write(frame, &place);
-        let rows = self.atomic_op(frame, AtomicTarget::Place(place), fun, value, result.is_some(), span)?;
+        let rows = self.atomic_op(
+            frame,
+            AtomicTarget::Place(place),
+            fun,
+            value,
+            result.is_some(),
+            span,
+        )?;
         if let Some(result) = result {
             frame.values.insert(result, Val::Rows(rows));
         }
@@ -267,7 +375,18 @@ impl<'m> Builder<'m> {
         frame.effect(|e| {
             e.regions.insert(region);
         });
-        self.atomic_op(frame, AtomicTarget::Texel { image, coordinate, layer }, fun, value, false, span)?;
+        self.atomic_op(
+            frame,
+            AtomicTarget::Texel {
+                image,
+                coordinate,
+                layer,
+            },
+            fun,
+            value,
+            false,
+            span,
+        )?;
         Ok(())
     }
 
@@ -284,12 +403,15 @@ impl<'m> Builder<'m> {
         let kind = self.kind_of(frame, value)?;
         let value = self.scalar(frame, value)?;
         let (op, compare) = match fun {
-            AtomicFunction::Exchange { compare: Some(compare) } => {
-                (AtomicOp::CompareExchange, Some(self.scalar(frame, *compare)?))
-            }
+            AtomicFunction::Exchange {
+                compare: Some(compare),
+            } => (AtomicOp::CompareExchange, Some(self.scalar(frame, *compare)?)),
             AtomicFunction::Exchange { compare: None } => (AtomicOp::Exchange, None),
             AtomicFunction::Add => (arithmetic(kind, AtomicOp::FloatAdd, IntBinary::Add, span)?, None),
-            AtomicFunction::Subtract => (arithmetic(kind, AtomicOp::FloatSubtract, IntBinary::Subtract, span)?, None),
+            AtomicFunction::Subtract => (
+                arithmetic(kind, AtomicOp::FloatSubtract, IntBinary::Subtract, span)?,
+                None,
+            ),
             AtomicFunction::Min => (arithmetic(kind, AtomicOp::FloatMin, IntBinary::Min, span)?, None),
             AtomicFunction::Max => (arithmetic(kind, AtomicOp::FloatMax, IntBinary::Max, span)?, None),
             AtomicFunction::And => (AtomicOp::Integer(IntBinary::And), None),
@@ -302,11 +424,27 @@ impl<'m> Builder<'m> {
             rows = self.rows(frame, &kinds[..1 + usize::from(compare.is_some())]);
         }
         let (result, exchanged) = (rows.first().copied(), rows.get(1).copied());
-        self.push(frame, Op::Atomic(Box::new(Atomic { op, kind, target, value, compare, result, exchanged })))?;
+        self.push(
+            frame,
+            Op::Atomic(Box::new(Atomic {
+                op,
+                kind,
+                target,
+                value,
+                compare,
+                result,
+                exchanged,
+            })),
+        )?;
         Ok(rows)
     }
 
-    fn ballot(&mut self, frame: &mut Frame<'m>, result: Handle<Expression>, predicate: Option<Handle<Expression>>) -> Result<()> {
+    fn ballot(
+        &mut self,
+        frame: &mut Frame<'m>,
+        result: Handle<Expression>,
+        predicate: Option<Handle<Expression>>,
+    ) -> Result<()> {
         let argument = match predicate {
             Some(handle) => self.scalar(frame, handle)?,
             None => self.bool(true),
@@ -318,12 +456,33 @@ impl<'m> Builder<'m> {
         Ok(())
     }
 
-    fn subgroup(&mut self, frame: &mut Frame<'m>, op: SubgroupOp, kind: Kind, argument: Option<Row>, dst: Row) -> Result<()> {
+    fn subgroup(
+        &mut self,
+        frame: &mut Frame<'m>,
+        op: SubgroupOp,
+        kind: Kind,
+        argument: Option<Row>,
+        dst: Row,
+    ) -> Result<()> {
         self.code.uses_subgroups = true;
-        self.push(frame, Op::Subgroup(Box::new(Subgroup { op, kind, argument, dst })))
+        self.push(
+            frame,
+            Op::Subgroup(Box::new(Subgroup {
+                op,
+                kind,
+                argument,
+                dst,
+            })),
+        )
     }
 
-    fn gather(&mut self, frame: &mut Frame<'m>, mode: GatherMode, argument: Handle<Expression>, result: Handle<Expression>) -> Result<()> {
+    fn gather(
+        &mut self,
+        frame: &mut Frame<'m>,
+        mode: GatherMode,
+        argument: Handle<Expression>,
+        result: Handle<Expression>,
+    ) -> Result<()> {
         let op = match mode {
             GatherMode::BroadcastFirst => SubgroupOp::BroadcastFirst,
             GatherMode::Broadcast(index) => self.with_index(frame, index, SubgroupOp::Broadcast)?,
@@ -339,12 +498,23 @@ impl<'m> Builder<'m> {
         self.per_component(frame, op, argument, result)
     }
 
-    fn with_index(&mut self, frame: &mut Frame<'m>, index: Handle<Expression>, op: fn(Row, IntType) -> SubgroupOp) -> Result<SubgroupOp> {
+    fn with_index(
+        &mut self,
+        frame: &mut Frame<'m>,
+        index: Handle<Expression>,
+        op: fn(Row, IntType) -> SubgroupOp,
+    ) -> Result<SubgroupOp> {
         let (row, int) = self.integer(frame, index)?;
         Ok(op(row, int))
     }
 
-    fn per_component(&mut self, frame: &mut Frame<'m>, op: SubgroupOp, argument: Handle<Expression>, result: Handle<Expression>) -> Result<()> {
+    fn per_component(
+        &mut self,
+        frame: &mut Frame<'m>,
+        op: SubgroupOp,
+        argument: Handle<Expression>,
+        result: Handle<Expression>,
+    ) -> Result<()> {
         let mut out = Vec::new();
         for row in self.scalars(frame, argument)? {
             let kind = self.code.kinds[row as usize];
@@ -386,14 +556,22 @@ impl<'m> Builder<'m> {
     ) -> Result<Texel> {
         let handle = self.value(frame, image)?.handle(span)?;
         let t = self.int_type(frame, coordinate)?;
-        let coordinate = self.scalars(frame, coordinate)?.into_iter().map(|row| (row, t)).collect();
+        let coordinate = self
+            .scalars(frame, coordinate)?
+            .into_iter()
+            .map(|row| (row, t))
+            .collect();
         let layer = layer.map(|l| self.integer(frame, l)).transpose()?;
         Ok((handle, coordinate, layer))
     }
 }
 
 /// Image, coordinate, layer.
-pub(crate) type Texel = (super::code::HandleRef, Vec<(Row, IntType)>, Option<(Row, IntType)>);
+pub(crate) type Texel = (
+    super::code::HandleRef,
+    Vec<(Row, IntType)>,
+    Option<(Row, IntType)>,
+);
 
 fn arithmetic(kind: Kind, float: AtomicOp, int: IntBinary, span: Span) -> Result<AtomicOp> {
     match kind {
@@ -434,7 +612,8 @@ fn int_combine(op: SubgroupOperation, span: Span) -> Result<IntBinary> {
         SubgroupOperation::And => Ok(IntBinary::And),
         SubgroupOperation::Or => Ok(IntBinary::Or),
         SubgroupOperation::Xor => Ok(IntBinary::Xor),
-        SubgroupOperation::All | SubgroupOperation::Any => unsupported("this subgroup operation on integers", span),
+        SubgroupOperation::All | SubgroupOperation::Any => {
+            unsupported("this subgroup operation on integers", span)
+        }
     }
 }
-

@@ -29,12 +29,20 @@ fn leading_zeros(t: IntType, bits: u64) -> u32 {
 /// The highest bit that differs from the sign bit (signed) or is set (unsigned); minus one, wrapped, where there is none.
 fn first_leading_bit(t: IntType, a: i128) -> i128 {
     let bits = t.to_bits(if t.signed && a < 0 { !a } else { a });
-    if bits == 0 { t.wrap(-1) } else { i128::from(t.bits - 1 - leading_zeros(t, bits)) }
+    if bits == 0 {
+        t.wrap(-1)
+    } else {
+        i128::from(t.bits - 1 - leading_zeros(t, bits))
+    }
 }
 
 fn first_trailing_bit(t: IntType, a: i128) -> i128 {
     let bits = t.to_bits(a);
-    if bits == 0 { t.wrap(-1) } else { i128::from(bits.trailing_zeros()) }
+    if bits == 0 {
+        t.wrap(-1)
+    } else {
+        i128::from(bits.trailing_zeros())
+    }
 }
 
 /// `a op b`; the second operand of a shift is taken modulo the size.
@@ -101,10 +109,16 @@ mod tests {
 
     #[test]
     fn arithmetic_wraps_and_division_has_its_rule() {
-        assert_eq!(binary(IntBinary::Add, I, i128::from(i32::MAX), 1), i128::from(i32::MIN));
+        assert_eq!(
+            binary(IntBinary::Add, I, i128::from(i32::MAX), 1),
+            i128::from(i32::MIN)
+        );
         assert_eq!(binary(IntBinary::Subtract, U, 0, 1), i128::from(u32::MAX));
         assert_eq!(binary(IntBinary::Divide, I, 7, 0), 7);
-        assert_eq!(binary(IntBinary::Divide, I, i128::from(i32::MIN), -1), i128::from(i32::MIN));
+        assert_eq!(
+            binary(IntBinary::Divide, I, i128::from(i32::MIN), -1),
+            i128::from(i32::MIN)
+        );
         assert_eq!(binary(IntBinary::Remainder, I, i128::from(i32::MIN), -1), 0);
         assert_eq!(binary(IntBinary::Remainder, I, -7, 3), -1);
     }
@@ -122,8 +136,14 @@ mod tests {
         for a in [0i32, 1, -1, 5, i32::MIN, i32::MAX, 0x00f0_1200] {
             let x = i128::from(a);
             assert_eq!(unary(IntUnary::CountOneBits, I, x), i128::from(a.count_ones()));
-            assert_eq!(unary(IntUnary::CountLeadingZeros, I, x), i128::from(a.leading_zeros()));
-            assert_eq!(unary(IntUnary::CountTrailingZeros, I, x), i128::from(a.trailing_zeros()));
+            assert_eq!(
+                unary(IntUnary::CountLeadingZeros, I, x),
+                i128::from(a.leading_zeros())
+            );
+            assert_eq!(
+                unary(IntUnary::CountTrailingZeros, I, x),
+                i128::from(a.trailing_zeros())
+            );
             assert_eq!(unary(IntUnary::ReverseBits, I, x), i128::from(a.reverse_bits()));
         }
         assert_eq!(unary(IntUnary::FirstLeadingBit, I, -1), -1);

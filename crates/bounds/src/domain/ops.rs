@@ -2,7 +2,10 @@
 
 /// A float function of one argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "each name is the WGSL built-in of that name; the three below are explained")]
+#[expect(
+    missing_docs,
+    reason = "each name is the WGSL built-in of that name; the three below are explained"
+)]
 pub enum FloatUnary {
     Negate,
     Abs,
@@ -44,7 +47,10 @@ pub enum FloatUnary {
 
 /// A float function of two arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "each name is the WGSL operator or built-in of that name")]
+#[expect(
+    missing_docs,
+    reason = "each name is the WGSL operator or built-in of that name"
+)]
 pub enum FloatBinary {
     Add,
     Subtract,
@@ -82,7 +88,10 @@ pub enum Compare {
 
 /// An integer function of one argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "each name is the WGSL operator or built-in of that name")]
+#[expect(
+    missing_docs,
+    reason = "each name is the WGSL operator or built-in of that name"
+)]
 pub enum IntUnary {
     Negate,
     Not,
@@ -98,7 +107,10 @@ pub enum IntUnary {
 
 /// An integer function of two arguments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "each name is the WGSL operator or built-in of that name")]
+#[expect(
+    missing_docs,
+    reason = "each name is the WGSL operator or built-in of that name"
+)]
 pub enum IntBinary {
     Add,
     Subtract,

@@ -29,7 +29,11 @@ fn f(c: u64) -> f64 {
 
 #[inline(always)]
 fn i(t: IntType, c: u64) -> i128 {
-    if t.signed { i128::from(c as i64) } else { i128::from(c) }
+    if t.signed {
+        i128::from(c as i64)
+    } else {
+        i128::from(c)
+    }
 }
 
 #[inline(always)]
@@ -145,12 +149,22 @@ fn maximum(a: f64, b: f64) -> f64 {
 
 /// The domain of `pow` is that of `exp2(y * log2(x))`: a negative base gives NaN, and so does 0 to the power 0.
 fn power(a: f64, b: f64) -> f64 {
-    if a < 0.0 || (a == 0.0 && b == 0.0) { f64::NAN } else { a.powf(b) }
+    if a < 0.0 || (a == 0.0 && b == 0.0) {
+        f64::NAN
+    } else {
+        a.abs().powf(b)
+    }
 }
 
 /// A float function of three arguments on `f64`, with the roundings of the formula given by `r`.
 #[inline(always)]
-fn float_ternary(op: FloatTernary, w: Width, exact: bool, [a, b, c]: [f64; 3], r: impl Fn(f64) -> f64) -> f64 {
+fn float_ternary(
+    op: FloatTernary,
+    w: Width,
+    exact: bool,
+    [a, b, c]: [f64; 3],
+    r: impl Fn(f64) -> f64,
+) -> f64 {
     match op {
         FloatTernary::Fma => fused(w, exact, a, b, c),
         FloatTernary::Clamp => minimum(maximum(a, b), c),
@@ -178,7 +192,10 @@ pub(crate) fn float_to_int(w: Width, t: IntType, x: f64) -> i128 {
     if x.is_nan() {
         return 0;
     }
-    let (lo, hi) = (t.min() as f64, w.round_down(t.max() as f64, if t.bits == 64 { -1.0 } else { 0.0 }));
+    let (lo, hi) = (
+        t.min() as f64,
+        w.round_down(t.max() as f64, if t.bits == 64 { -1.0 } else { 0.0 }),
+    );
     let hi = hi.min(w.max_finite());
     x.trunc().clamp(lo.max(-w.max_finite()), hi) as i128
 }
@@ -203,7 +220,10 @@ pub(crate) fn float_from_bits(w: Width, bits: u64) -> f64 {
 
 /// The unsigned integer type of a scalar's size.
 pub(crate) fn bits_type(kind: Kind) -> IntType {
-    IntType { signed: false, bits: kind.bytes() as u32 * 8 }
+    IntType {
+        signed: false,
+        bits: kind.bytes() as u32 * 8,
+    }
 }
 
 macro_rules! point_domain {

@@ -15,7 +15,11 @@ impl<'a, D: Domain> Machine<'a, D> {
         for &lane in active {
             match &atomic.target {
                 AtomicTarget::Place(place) => self.atomic_at_place(atomic, place, lane),
-                AtomicTarget::Texel { image, coordinate, layer } => {
+                AtomicTarget::Texel {
+                    image,
+                    coordinate,
+                    layer,
+                } => {
                     let region = image.resource;
                     if let Some(at) = self.texel_cell(image, coordinate, *layer, lane) {
                         self.atomic_at(atomic, Root::Memory(region), at, lane);
@@ -84,7 +88,11 @@ impl<'a, D: Domain> Machine<'a, D> {
 
     fn combined(&self, atomic: &Atomic, old: D::Cell, lane: u32) -> D::Cell {
         let value = self.get(atomic.value, lane);
-        let w = if let Kind::Float(w) = atomic.kind { w } else { Width::F32 };
+        let w = if let Kind::Float(w) = atomic.kind {
+            w
+        } else {
+            Width::F32
+        };
         match (atomic.op, atomic.kind) {
             (AtomicOp::Integer(op), Kind::Int(t)) => D::int_binary(op, t, old, value),
             (AtomicOp::Integer(_), Kind::Float(_) | Kind::Bool) => old,

@@ -35,13 +35,22 @@ impl<'a, D: Domain> Machine<'a, D> {
         self.depth += 1;
         let limit = self.context.limits.depth;
         if self.depth > limit {
-            return Err(Error::Depth { limit, span: self.span(span) });
+            return Err(Error::Depth {
+                limit,
+                span: self.span(span),
+            });
         }
         Ok(())
     }
 
     pub(crate) fn span(&self, span: u32) -> naga::Span {
-        self.context.program.code.spans.get(span as usize).copied().unwrap_or_default()
+        self.context
+            .program
+            .code
+            .spans
+            .get(span as usize)
+            .copied()
+            .unwrap_or_default()
     }
 
     fn block(&mut self, nodes: &'a [Node], active: &mut Vec<u32>, exits: &mut Exits) -> Result<()> {
@@ -57,8 +66,18 @@ impl<'a, D: Domain> Machine<'a, D> {
     fn node(&mut self, node: &'a Node, active: &mut Vec<u32>, exits: &mut Exits) -> Result<()> {
         match node {
             Node::Run(run) => run.iter().try_for_each(|instr| self.instruction(instr, active)),
-            Node::If { cond, accept, reject, span } => self.if_node(*cond, (accept, reject), *span, active, exits),
-            Node::Switch { selector, int, cases, span } => self.switch(*selector, *int, cases, *span, active, exits),
+            Node::If {
+                cond,
+                accept,
+                reject,
+                span,
+            } => self.if_node(*cond, (accept, reject), *span, active, exits),
+            Node::Switch {
+                selector,
+                int,
+                cases,
+                span,
+            } => self.switch(*selector, *int, cases, *span, active, exits),
             Node::Loop(l) => self.loop_node(l, active, exits),
             Node::Break => {
                 exits.broke.append(active);
@@ -74,7 +93,9 @@ impl<'a, D: Domain> Machine<'a, D> {
                 Ok(())
             }
             Node::Kill => {
-                active.iter().for_each(|&lane| self.lanes.killed[lane as usize] = Truth::True);
+                active
+                    .iter()
+                    .for_each(|&lane| self.lanes.killed[lane as usize] = Truth::True);
                 Ok(())
             }
             Node::Barrier => {
@@ -159,10 +180,21 @@ impl<'a, D: Domain> Machine<'a, D> {
     }
 
     /// Puts a lane into every case its selector may select.
-    fn enter_cases(&mut self, cases: &[Case], (lo, hi): (i128, i128), lane: u32, entering: &mut [Vec<u32>], done: &mut Vec<u32>) {
+    fn enter_cases(
+        &mut self,
+        cases: &[Case],
+        (lo, hi): (i128, i128),
+        lane: u32,
+        entering: &mut [Vec<u32>],
+        done: &mut Vec<u32>,
+    ) {
         let inside = |v: i128| lo <= v && v <= hi;
-        let mut targets: Vec<usize> =
-            cases.iter().enumerate().filter(|(_, c)| c.value.is_some_and(inside)).map(|(i, _)| i).collect();
+        let mut targets: Vec<usize> = cases
+            .iter()
+            .enumerate()
+            .filter(|(_, c)| c.value.is_some_and(inside))
+            .map(|(i, _)| i)
+            .collect();
         let covered = targets.len() as i128 == hi - lo + 1;
         let default = cases.iter().position(|c| c.value.is_none());
         if !covered {
@@ -188,7 +220,10 @@ impl<'a, D: Domain> Machine<'a, D> {
 
     fn loop_node(&mut self, l: &'a Loop, active: &mut Vec<u32>, exits: &mut Exits) -> Result<()> {
         self.deeper(l.span)?;
-        let outer = (std::mem::take(&mut exits.broke), std::mem::take(&mut exits.continued));
+        let outer = (
+            std::mem::take(&mut exits.broke),
+            std::mem::take(&mut exits.continued),
+        );
         let mut left = Vec::new();
         let mut rounds: BTreeMap<u32, u32> = BTreeMap::new();
         while !active.is_empty() {
@@ -227,10 +262,21 @@ impl<'a, D: Domain> Machine<'a, D> {
     }
 
     /// Gives up a loop for invocations that both left and stayed too often.
-    fn limit_rounds(&mut self, l: &'a Loop, active: &mut Vec<u32>, exits: &mut Exits, returned: usize, rounds: &mut BTreeMap<u32, u32>) {
+    fn limit_rounds(
+        &mut self,
+        l: &'a Loop,
+        active: &mut Vec<u32>,
+        exits: &mut Exits,
+        returned: usize,
+        rounds: &mut BTreeMap<u32, u32>,
+    ) {
         let returned = returned.min(exits.returned.len());
-        let leaving: Vec<u32> =
-            exits.broke.iter().chain(&exits.returned[returned..]).map(|&lane| self.lanes.root[lane as usize]).collect();
+        let leaving: Vec<u32> = exits
+            .broke
+            .iter()
+            .chain(&exits.returned[returned..])
+            .map(|&lane| self.lanes.root[lane as usize])
+            .collect();
         if leaving.is_empty() {
             return;
         }
@@ -272,7 +318,10 @@ impl<'a, D: Domain> Machine<'a, D> {
     pub(crate) fn spend(&mut self, operations: u64, span: u32) -> Result<()> {
         self.counters.operations += operations;
         if self.counters.operations > self.budget {
-            return Err(Error::Budget { budget: self.context.limits.operations, span: self.span(span) });
+            return Err(Error::Budget {
+                budget: self.context.limits.operations,
+                span: self.span(span),
+            });
         }
         Ok(())
     }

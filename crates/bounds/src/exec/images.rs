@@ -12,6 +12,7 @@ use crate::texture::filter::{self, Axis, TooWide, filtered};
 use crate::texture::lod::{self, Tap};
 use crate::texture::{Bounds, CompareFunction, Dimension, Filter, Sampler, Texture};
 use crate::width::Width;
+use std::ops::RangeInclusive;
 
 type Channels = [Bounds; 4];
 
@@ -22,7 +23,7 @@ struct Request<'a> {
     /// Normalised coordinates; a direction for cubes.
     at: [Bounds; 3],
     offset: [i64; 3],
-    layers: Vec<u32>,
+    layers: RangeInclusive<u32>,
     /// Bounds of the depth reference.
     reference: Option<Bounds>,
     limit: u32,
@@ -41,7 +42,9 @@ impl<'a, D: Domain> Machine<'a, D> {
 
     /// The element of a binding array, zero for plain bindings; `None` when it is uncertain or out of bounds.
     fn element(&self, handle: &HandleRef, lane: u32) -> Option<usize> {
-        let Some((row, t)) = handle.index else { return Some(0) };
+        let Some((row, t)) = handle.index else {
+            return Some(0);
+        };
         let (lo, hi) = D::int_bounds(t, self.get(row, lane));
         (lo == hi).then(|| usize::try_from(lo).ok()).flatten()
     }
@@ -57,7 +60,11 @@ impl<'a, D: Domain> Machine<'a, D> {
     pub(crate) fn sample(&mut self, sample: &Sample, active: &[u32]) -> Result<()> {
         let needs_neighbours = matches!(sample.level, Level::Auto | Level::Bias(_));
         let neighbours: Vec<Vec<Option<D::Cell>>> = if needs_neighbours && self.filters_by_level(sample) {
-            sample.coordinate.iter().map(|&row| self.by_invocation(row, Kind::Float(Width::F32), active)).collect()
+            sample
+                .coordinate
+                .iter()
+                .map(|&row| self.by_invocation(row, Kind::Float(Width::F32), active))
+                .collect()
         } else {
             Vec::new()
         };
@@ -69,12 +76,19 @@ impl<'a, D: Domain> Machine<'a, D> {
 
     /// Whether the level of detail can make a difference for any texture of the handle.
     fn filters_by_level(&self, sample: &Sample) -> bool {
-        self.context.textures[sample.image.resource as usize].iter().any(|t| t.levels() > 1)
-            || self.context.samplers[sample.sampler.resource as usize].iter().any(|s| s.mag != s.min)
+        self.context.textures[sample.image.resource as usize]
+            .iter()
+            .any(|t| t.levels() > 1)
+            || self.context.samplers[sample.sampler.resource as usize]
+                .iter()
+                .any(|s| s.mag != s.min)
     }
 
     fn sample_lane(&mut self, sample: &Sample, lane: u32, neighbours: &[Vec<Option<D::Cell>>]) -> Result<()> {
-        let (Some(texture), Some(sampler)) = (self.texture(&sample.image, lane), self.sampler(&sample.sampler, lane)) else {
+        let (Some(texture), Some(sampler)) = (
+            self.texture(&sample.image, lane),
+            self.sampler(&sample.sampler, lane),
+        ) else {
             self.set_all(sample.dst, sample.parts, lane, D::indeterminate(sample.kind));
             return Ok(());
         };
@@ -122,15 +136,21 @@ impl<'a, D: Domain> Machine<'a, D> {
         out
     }
 
-    fn layers(&self, texture: &Texture, layer: Option<(Row, IntType)>, lane: u32) -> Vec<u32> {
-        let Some((row, t)) = layer else { return vec![0] };
+    fn layers(&self, texture: &Texture, layer: Option<(Row, IntType)>, lane: u32) -> RangeInclusive<u32> {
+        let Some((row, t)) = layer else { return 0..=0 };
         let last = i128::from(texture.layers()) - 1;
         let (lo, hi) = D::int_bounds(t, self.get(row, lane));
-        (lo.clamp(0, last) as u32..=hi.clamp(0, last) as u32).collect()
+        lo.clamp(0, last) as u32..=hi.clamp(0, last) as u32
     }
 
     /// Bounds of the level of detail; `None` when nothing is known.
-    fn level_bounds(&self, sample: &Sample, request: &Request<'_>, lane: u32, neighbours: &[Vec<Option<D::Cell>>]) -> Option<Bounds> {
+    fn level_bounds(
+        &self,
+        sample: &Sample,
+        request: &Request<'_>,
+        lane: u32,
+        neighbours: &[Vec<Option<D::Cell>>],
+    ) -> Option<Bounds> {
         let known = |b: Bounds| (!b.0.is_nan()).then_some(b);
         let of_row = |row: Row| known(D::float_bounds(self.get(row, lane)));
         match &sample.level {
@@ -147,11 +167,18 @@ impl<'a, D: Domain> Machine<'a, D> {
                 let clamp = |x: f64| x.clamp(-16.0, 15.99);
                 Some((level.0 + clamp(bias.0), level.1 + clamp(bias.1)))
             }
-            Level::Gradient { x, y } => known(request.level(self.bounds_of(x, lane), self.bounds_of(y, lane), D::UNCERTAIN)),
+            Level::Gradient { x, y } => {
+                known(request.level(self.bounds_of(x, lane), self.bounds_of(y, lane), D::UNCERTAIN))
+            }
         }
     }
 
-    fn implicit_level(&self, request: &Request<'_>, lane: u32, neighbours: &[Vec<Option<D::Cell>>]) -> Option<Bounds> {
+    fn implicit_level(
+        &self,
+        request: &Request<'_>,
+        lane: u32,
+        neighbours: &[Vec<Option<D::Cell>>],
+    ) -> Option<Bounds> {
         let root = self.lanes.root[lane as usize] as usize;
         let mut gradients = [[(0.0, 0.0); 3]; 2];
         for (gradient, bit) in gradients.iter_mut().zip([1, 2]) {
@@ -188,8 +215,18 @@ impl<'a, D: Domain> Machine<'a, D> {
             *to = self.int_range(at, lane);
         }
         // Samples of a multisampled texture are stored as layers.
-        let layer = load.sample.or(load.layer).map_or((0, 0), |l| self.int_range(l, lane));
-        let result = load_texels(texture, level, index, layer, self.context.limits.spread, D::UNCERTAIN);
+        let layer = load
+            .sample
+            .or(load.layer)
+            .map_or((0, 0), |l| self.int_range(l, lane));
+        let result = load_texels(
+            texture,
+            level,
+            index,
+            layer,
+            self.context.limits.spread,
+            D::UNCERTAIN,
+        );
         self.counters.out_of_bounds += u64::from(result.1);
         for (k, bounds) in (0..load.parts).zip(result.0) {
             self.set(load.dst + k, lane, channel::<D>(load.kind, bounds));
@@ -205,7 +242,15 @@ impl<'a, D: Domain> Machine<'a, D> {
                 None => super::places::zero::<D>(load.kind),
             };
             let unknown = cell.is_none() && D::UNCERTAIN;
-            self.set(load.dst + k, lane, if unknown { D::indeterminate(load.kind) } else { value });
+            self.set(
+                load.dst + k,
+                lane,
+                if unknown {
+                    D::indeterminate(load.kind)
+                } else {
+                    value
+                },
+            );
         }
     }
 
@@ -228,7 +273,10 @@ impl<'a, D: Domain> Machine<'a, D> {
             let (lo, hi) = self.int_range(l, lane);
             (lo == hi).then_some(lo)
         })?;
-        let inside = index.iter().zip(size).all(|(&i, n)| (0..i128::from(n)).contains(&i));
+        let inside = index
+            .iter()
+            .zip(size)
+            .all(|(&i, n)| (0..i128::from(n)).contains(&i));
         if !inside || !(0..i128::from(texture.layers())).contains(&layer) {
             return None;
         }
@@ -247,14 +295,19 @@ impl<'a, D: Domain> Machine<'a, D> {
         for &lane in active {
             let Some(at) = self.texel_cell(&store.image, &store.coordinate, store.layer, lane) else {
                 if uncertain(self, lane) {
-                    let effects = crate::compile::code::Effects { regions: [region].into(), ..Default::default() };
+                    let effects = crate::compile::code::Effects {
+                        regions: [region].into(),
+                        ..Default::default()
+                    };
                     self.abandon(lane, &effects);
                 } else {
                     self.counters.out_of_bounds += 1;
                 }
                 continue;
             };
-            let Some(texture) = self.texture(&store.image, lane) else { continue };
+            let Some(texture) = self.texture(&store.image, lane) else {
+                continue;
+            };
             for (k, &row) in store.values.iter().enumerate() {
                 let cell = stored::<D>(texture, k, store.kind, self.get(row, lane));
                 self.write(region, at + k as u32, lane, store.kind, cell, false);
@@ -265,7 +318,12 @@ impl<'a, D: Domain> Machine<'a, D> {
     pub(crate) fn image_query(&mut self, query: &ImageQuery, active: &[u32]) {
         for &lane in active {
             let Some(texture) = self.texture(&query.image, lane) else {
-                self.set_all(query.dst, query.parts, lane, D::indeterminate(Kind::Int(IntType::U32)));
+                self.set_all(
+                    query.dst,
+                    query.parts,
+                    lane,
+                    D::indeterminate(Kind::Int(IntType::U32)),
+                );
                 continue;
             };
             let level = query.level.map_or((0, 0), |l| self.int_range(l, lane));
@@ -279,7 +337,11 @@ impl<'a, D: Domain> Machine<'a, D> {
                     Query::Layers => (texture.layers(), texture.layers()),
                     Query::Samples => (texture.samples(), texture.samples()),
                 };
-                self.set(query.dst + k, lane, D::int_range(IntType::U32, i128::from(lo), i128::from(hi)));
+                self.set(
+                    query.dst + k,
+                    lane,
+                    D::int_range(IntType::U32, i128::from(lo), i128::from(hi)),
+                );
             }
         }
     }
@@ -304,7 +366,11 @@ fn neighbour_difference<D: Domain>(values: &[Option<D::Cell>], root: usize, bit:
 fn channel<D: Domain>(kind: Kind, (lo, hi): Bounds) -> D::Cell {
     match kind {
         Kind::Float(w) => D::real(w, lo, hi),
-        Kind::Int(t) => D::int_range(t, (lo as i128).clamp(t.min(), t.max()), (hi as i128).clamp(t.min(), t.max())),
+        Kind::Int(t) => D::int_range(
+            t,
+            (lo as i128).clamp(t.min(), t.max()),
+            (hi as i128).clamp(t.min(), t.max()),
+        ),
         Kind::Bool => D::bool(lo != 0.0),
     }
 }
@@ -320,13 +386,23 @@ fn stored<D: Domain>(texture: &Texture, k: usize, kind: Kind, cell: D::Cell) -> 
             if lo.is_nan() {
                 return cell;
             }
-            let slack = if D::UNCERTAIN && format.is_normalised() { f64::from(f32::EPSILON) } else { 0.0 };
+            let slack = if D::UNCERTAIN && format.is_normalised() {
+                f64::from(f32::EPSILON)
+            } else {
+                0.0
+            };
             D::real(w, format.quantize(k, lo - slack), format.quantize(k, hi + slack))
         }
         Kind::Int(t) if missing => D::int(t, i128::from(k == 3)),
         Kind::Int(t) => {
             let (lo, hi) = D::int_bounds(t, cell);
-            let q = |x: i128| if format.bytes() / format.channels() >= 4 { x } else { format.quantize(k, x as f64) as i128 };
+            let q = |x: i128| {
+                if format.bytes() / format.channels() >= 4 {
+                    x
+                } else {
+                    format.quantize(k, x as f64) as i128
+                }
+            };
             D::int_range(t, q(lo).clamp(t.min(), t.max()), q(hi).clamp(t.min(), t.max()))
         }
         Kind::Bool => cell,
@@ -346,7 +422,10 @@ fn load_texels(
     let valid_level = level.0 >= 0 && level.1 < texture.levels() as i128;
     let last = texture.levels() as i128 - 1;
     let size = texture.size(level.0.clamp(0, last) as usize).map(i128::from);
-    let inside = valid_level && layer.0 >= 0 && layer.1 < layers && index.iter().zip(size).all(|(i, n)| i.0 >= 0 && i.1 < n);
+    let inside = valid_level
+        && layer.0 >= 0
+        && layer.1 < layers
+        && index.iter().zip(size).all(|(i, n)| i.0 >= 0 && i.1 < n);
     let count: i128 = index.iter().map(|i| i.1 - i.0 + 1).product::<i128>() * (layer.1 - layer.0 + 1);
     if exact && inside {
         let texel = texture.texel(level.0 as usize, index.map(|i| i.0 as u32), layer.0 as u32);
@@ -356,7 +435,9 @@ fn load_texels(
         return ([(0.0, 0.0); 4], true);
     }
     if !inside || level.0 != level.1 || count > i128::from(limit) {
-        let all = (0..texture.levels()).map(|l| texture.level_bounds(l)).reduce(filter::hull);
+        let all = (0..texture.levels())
+            .map(|l| texture.level_bounds(l))
+            .reduce(filter::hull);
         return (all.unwrap_or([(0.0, 1.0); 4]), !inside);
     }
     let mut total: Option<Channels> = None;
@@ -364,7 +445,9 @@ fn load_texels(
         for z in index[2].0..=index[2].1 {
             for y in index[1].0..=index[1].1 {
                 for x in index[0].0..=index[0].1 {
-                    let t = texture.texel(level.0 as usize, [x as u32, y as u32, z as u32], l as u32).map(|x| (x, x));
+                    let t = texture
+                        .texel(level.0 as usize, [x as u32, y as u32, z as u32], l as u32)
+                        .map(|x| (x, x));
                     total = Some(total.map_or(t, |a| filter::hull(a, t)));
                 }
             }
@@ -391,7 +474,9 @@ impl Request<'_> {
         let n = self.axes();
         let size = self.texture.size(0);
         let scaled = |d: [Bounds; 3]| -> Vec<Bounds> {
-            (0..n).map(|k| (d[k].0 * f64::from(size[k]), d[k].1 * f64::from(size[k]))).collect()
+            (0..n)
+                .map(|k| (d[k].0 * f64::from(size[k]), d[k].1 * f64::from(size[k])))
+                .collect()
         };
         lod::from_gradients(&scaled(dx), &scaled(dy), uncertain)
     }
@@ -399,13 +484,33 @@ impl Request<'_> {
     /// On a cube the direction's change, seen from the centre, over the length of its major component, in texels of a face.
     fn cube_level(&self, dx: [Bounds; 3], dy: [Bounds; 3], uncertain: bool) -> Bounds {
         let half = f64::from(self.texture.size(0)[0]) / 2.0;
-        let magnitude = |b: Bounds| (if b.0 <= 0.0 && b.1 >= 0.0 { 0.0 } else { b.0.abs().min(b.1.abs()) }, b.0.abs().max(b.1.abs()));
+        let magnitude = |b: Bounds| {
+            (
+                if b.0 <= 0.0 && b.1 >= 0.0 {
+                    0.0
+                } else {
+                    b.0.abs().min(b.1.abs())
+                },
+                b.0.abs().max(b.1.abs()),
+            )
+        };
         let at = self.at.map(magnitude);
-        let major = (at[0].0.max(at[1].0).max(at[2].0), at[0].1.max(at[1].1).max(at[2].1));
+        let major = (
+            at[0].0.max(at[1].0).max(at[2].0),
+            at[0].1.max(at[1].1).max(at[2].1),
+        );
         let scaled = |d: [Bounds; 3]| -> Vec<Bounds> {
             d.map(|b| {
-                let ends = [b.0 * half / major.0, b.0 * half / major.1, b.1 * half / major.0, b.1 * half / major.1];
-                (ends.into_iter().fold(f64::INFINITY, f64::min), ends.into_iter().fold(f64::NEG_INFINITY, f64::max))
+                let ends = [
+                    b.0 * half / major.0,
+                    b.0 * half / major.1,
+                    b.1 * half / major.0,
+                    b.1 * half / major.1,
+                ];
+                (
+                    ends.into_iter().fold(f64::INFINITY, f64::min),
+                    ends.into_iter().fold(f64::NEG_INFINITY, f64::max),
+                )
             })
             .to_vec()
         };
@@ -424,10 +529,14 @@ impl Request<'_> {
 
     /// The hull over everything a level of detail may select.
     fn sample(&self, level: Bounds, uncertain: bool) -> Channels {
+        if level.1 <= 0.0 && f64::from(self.sampler.lod.0) <= 0.0 && self.layers.start() == self.layers.end()
+        {
+            return self.one_level(0, *self.layers.start(), self.sampler.mag, uncertain);
+        }
         let taps = lod::taps(self.sampler, self.texture.levels(), level);
         let mut total: Option<Channels> = None;
         for tap in taps {
-            for &layer in &self.layers {
+            for layer in self.layers.clone() {
                 let value = self.tap(tap, layer, uncertain);
                 total = Some(total.map_or(value, |t| filter::hull(t, value)));
             }
@@ -464,11 +573,21 @@ impl Request<'_> {
             }
         };
         let axes = [axis(0)?, axis(1)?, axis(2)?];
-        let cells: usize = axes.iter().map(|a| a.cells.len()).product();
-        if cells > self.limit as usize { Err(TooWide) } else { Ok(axes) }
+        let cells: usize = axes.iter().map(Axis::len).product();
+        if cells > self.limit as usize {
+            Err(TooWide)
+        } else {
+            Ok(axes)
+        }
     }
 
-    fn cube_level_value(&self, level: usize, layer: u32, filter: Filter, uncertain: bool) -> Result<Channels, TooWide> {
+    fn cube_level_value(
+        &self,
+        level: usize,
+        layer: u32,
+        filter: Filter,
+        uncertain: bool,
+    ) -> Result<Channels, TooWide> {
         let mut total: Option<Channels> = None;
         for (face, coordinates) in cube::faces(self.at, uncertain) {
             let value = self.on_face(level, layer, (face, coordinates), filter, uncertain)?;
@@ -477,21 +596,41 @@ impl Request<'_> {
         total.ok_or(TooWide)
     }
 
-    fn on_face(&self, level: usize, layer: u32, (face, at): OnFace, filter: Filter, uncertain: bool) -> Result<Channels, TooWide> {
+    fn on_face(
+        &self,
+        level: usize,
+        layer: u32,
+        (face, at): OnFace,
+        filter: Filter,
+        uncertain: bool,
+    ) -> Result<Channels, TooWide> {
         let n = self.texture.size(level)[0];
         let axis = |k: usize| Axis::new(at[k], n, 0, filter, uncertain, self.limit);
         let axes = [axis(0)?, axis(1)?, Axis::flat()];
-        Ok(filtered(&axes, uncertain, &mut |[i, j, _]| self.cube_texel(level, layer, (face, i, j), n, uncertain)))
+        Ok(filtered(&axes, uncertain, &mut |[i, j, _]| {
+            self.cube_texel(level, layer, (face, i, j), n, uncertain)
+        }))
     }
 
-    fn cube_texel(&self, level: usize, layer: u32, (face, i, j): (u32, i64, i64), n: u32, uncertain: bool) -> Channels {
+    fn cube_texel(
+        &self,
+        level: usize,
+        layer: u32,
+        (face, i, j): (u32, i64, i64),
+        n: u32,
+        uncertain: bool,
+    ) -> Channels {
         let list = cube::across(face, i, j, n);
-        let texels = list.iter().map(|&(f, x, y)| self.compared(self.texture.texel(level, [x, y, 0], 6 * layer + f)));
+        let texels = list
+            .iter()
+            .map(|&(f, x, y)| self.compared(self.texture.texel(level, [x, y, 0], 6 * layer + f)));
         if uncertain {
             return texels.reduce(filter::hull).unwrap_or([(0.0, 0.0); 4]);
         }
         let count = list.len() as f64;
-        texels.fold([(0.0, 0.0); 4], |sum, t| std::array::from_fn(|c| (sum[c].0 + t[c].0 / count, sum[c].1 + t[c].1 / count)))
+        texels.fold([(0.0, 0.0); 4], |sum, t| {
+            std::array::from_fn(|c| (sum[c].0 + t[c].0 / count, sum[c].1 + t[c].1 / count))
+        })
     }
 
     /// A texel by unwrapped index, after the depth comparison.
@@ -526,7 +665,7 @@ impl Request<'_> {
     /// A component of the four texels that bilinear filtering would blend, in WGSL's order.
     fn gather(&self, component: usize, uncertain: bool) -> Channels {
         let mut out: Option<Channels> = None;
-        for &layer in &self.layers {
+        for layer in self.layers.clone() {
             match self.gather_layer(component, layer, uncertain) {
                 Ok(value) => out = Some(out.map_or(value, |t| filter::hull(t, value))),
                 Err(TooWide) => return [self.anything(0)[component]; 4],
@@ -548,20 +687,26 @@ impl Request<'_> {
             return total.ok_or(TooWide);
         }
         let axes = self.axes_at(0, Filter::Linear, uncertain)?;
-        Ok(four(&axes[0], &axes[1], &|i, j| self.fetch(0, layer, [i, j, 0])[component]))
+        Ok(four(&axes[0], &axes[1], &|i, j| {
+            self.fetch(0, layer, [i, j, 0])[component]
+        }))
     }
 
     /// Every value of a level, or of a comparison.
     fn anything(&self, level: usize) -> Channels {
-        if self.reference.is_some() { [(0.0, 1.0); 4] } else { self.texture.level_bounds(level) }
+        if self.reference.is_some() {
+            [(0.0, 1.0); 4]
+        } else {
+            self.texture.level_bounds(level)
+        }
     }
 }
 
 /// The four texels of every cell, in the order (min, max), (max, max), (max, min), (min, min).
 fn four(x: &Axis, y: &Axis, fetch: &impl Fn(i64, i64) -> Bounds) -> Channels {
     let mut total: Option<Channels> = None;
-    for &(i, _) in &x.cells {
-        for &(j, _) in &y.cells {
+    for (i, _) in x.cells() {
+        for (j, _) in y.cells() {
             let cell = [fetch(i, j + 1), fetch(i + 1, j + 1), fetch(i + 1, j), fetch(i, j)];
             total = Some(total.map_or(cell, |t| filter::hull(t, cell)));
         }
@@ -586,5 +731,7 @@ fn compare(function: CompareFunction, reference: Bounds, texel: f64) -> Truth {
 
 /// The error for a texture whose shape is not the variable's.
 pub(crate) fn mismatch(name: &str, reason: String) -> Error {
-    Error::Texture { reason: format!("`{name}`: {reason}") }
+    Error::Texture {
+        reason: format!("`{name}`: {reason}"),
+    }
 }

@@ -16,7 +16,10 @@ pub(crate) struct Overlay<D: Domain> {
 
 impl<D: Domain> Default for Overlay<D> {
     fn default() -> Self {
-        Self { cells: BTreeMap::new(), lost: BTreeSet::new() }
+        Self {
+            cells: BTreeMap::new(),
+            lost: BTreeSet::new(),
+        }
     }
 }
 
@@ -98,7 +101,11 @@ impl<'a, D: Domain> Machine<'a, D> {
     /// Copies what the functions being executed own.
     fn copy_columns(&mut self, from: u32, to: u32) {
         let code = &self.context.program.code;
-        let owned = self.frames.iter().flat_map(|&f| &code.functions[f].owned).chain(&code.privates);
+        let owned = self
+            .frames
+            .iter()
+            .flat_map(|&f| &code.functions[f].owned)
+            .chain(&code.privates);
         for &(base, len) in owned {
             for row in base..base + len {
                 let start = row as usize * self.stride;
@@ -152,7 +159,11 @@ impl<'a, D: Domain> Machine<'a, D> {
 
     fn hull_variables(&mut self, keep: u32, drop: u32) {
         let code = &self.context.program.code;
-        let variables = self.frames.iter().flat_map(|&f| &code.functions[f].variables).chain(&code.privates);
+        let variables = self
+            .frames
+            .iter()
+            .flat_map(|&f| &code.functions[f].variables)
+            .chain(&code.privates);
         for &(base, len) in variables {
             for row in base..base + len {
                 let start = row as usize * self.stride;
@@ -175,7 +186,10 @@ impl<'a, D: Domain> Machine<'a, D> {
         merged.lost = mine.lost.union(&other.lost).copied().collect();
         for (&at, &(cell, kind)) in mine.cells.iter().chain(&other.cells) {
             let (a, b) = (self.through(&mine, at, kind), self.through(&other, at, kind));
-            merged.cells.entry(at).or_insert((if a == b { cell } else { D::hull(kind, a, b) }, kind));
+            merged
+                .cells
+                .entry(at)
+                .or_insert((if a == b { cell } else { D::hull(kind, a, b) }, kind));
         }
         Some(Box::new(merged))
     }
@@ -202,13 +216,25 @@ impl<'a, D: Domain> Machine<'a, D> {
     }
 
     /// Writes shared memory on behalf of a lane; `weak` keeps the old value as a possibility.
-    pub(crate) fn write(&mut self, region: RegionId, at: u32, lane: u32, kind: Kind, cell: D::Cell, weak: bool) {
+    pub(crate) fn write(
+        &mut self,
+        region: RegionId,
+        at: u32,
+        lane: u32,
+        kind: Kind,
+        cell: D::Cell,
+        weak: bool,
+    ) {
         let weak = match self.lanes.killed[lane as usize] {
             Truth::True => return,
             Truth::Maybe => true,
             Truth::False => weak,
         };
-        let cell = if weak { D::hull(kind, self.read(region, at, lane, kind), cell) } else { cell };
+        let cell = if weak {
+            D::hull(kind, self.read(region, at, lane, kind), cell)
+        } else {
+            cell
+        };
         if self.lanes.is_forked(lane) {
             let overlay = self.lanes.overlay[lane as usize].get_or_insert_default();
             overlay.cells.insert((region, at), (cell, kind));
@@ -219,7 +245,9 @@ impl<'a, D: Domain> Machine<'a, D> {
 
     /// The only lane left of an invocation makes its writes visible.
     fn commit(&mut self, lane: u32) {
-        let Some(overlay) = self.lanes.overlay[lane as usize].take() else { return };
+        let Some(overlay) = self.lanes.overlay[lane as usize].take() else {
+            return;
+        };
         for &region in &overlay.lost {
             self.lose(region);
         }
@@ -241,7 +269,9 @@ impl<'a, D: Domain> Machine<'a, D> {
             return;
         }
         for &lane in active {
-            let Some(overlay) = self.lanes.overlay[lane as usize].clone() else { continue };
+            let Some(overlay) = self.lanes.overlay[lane as usize].clone() else {
+                continue;
+            };
             for &region in &overlay.lost {
                 self.lose(region);
             }
@@ -271,7 +301,11 @@ impl<'a, D: Domain> Machine<'a, D> {
         }
         if effects.kills {
             let killed = &mut self.lanes.killed[lane as usize];
-            *killed = killed.hull(if *killed == Truth::True { Truth::True } else { Truth::Maybe });
+            *killed = killed.hull(if *killed == Truth::True {
+                Truth::True
+            } else {
+                Truth::Maybe
+            });
         }
     }
 

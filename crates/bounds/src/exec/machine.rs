@@ -44,7 +44,8 @@ impl Counters {
         self.forks += other.forks;
         self.abandoned_loops += other.abandoned_loops;
         self.out_of_bounds += other.out_of_bounds;
-        self.by_span.resize(self.by_span.len().max(other.by_span.len()), [0; 2]);
+        self.by_span
+            .resize(self.by_span.len().max(other.by_span.len()), [0; 2]);
         for (to, from) in self.by_span.iter_mut().zip(&other.by_span) {
             to[0] += from[0];
             to[1] += from[1];
@@ -141,7 +142,8 @@ impl<'a, D: Domain> Machine<'a, D> {
         let rows = self.context.program.code.kinds.len();
         let mut regs = vec![D::Cell::default(); rows * stride];
         for row in 0..rows {
-            regs[row * stride..][..self.stride].copy_from_slice(&self.regs[row * self.stride..][..self.stride]);
+            regs[row * stride..][..self.stride]
+                .copy_from_slice(&self.regs[row * self.stride..][..self.stride]);
         }
         self.regs = regs;
         self.stride = stride;

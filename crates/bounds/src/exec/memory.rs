@@ -37,7 +37,11 @@ pub(crate) struct View<'a, D: Domain> {
 
 impl<'a, D: Domain> View<'a, D> {
     pub(crate) fn new(base: &'a Memory<D>) -> Self {
-        Self { base, own: base.workgroup.clone(), pages: HashMap::new() }
+        Self {
+            base,
+            own: base.workgroup.clone(),
+            pages: HashMap::new(),
+        }
     }
 
     pub(crate) fn len(&self, region: RegionId) -> usize {

@@ -5,8 +5,8 @@
 
 use super::machine::Machine;
 use crate::compile::code::{Instr, Op, Row};
-use crate::domain::ops::{Compare, FloatBinary, FloatTernary, FloatUnary, IntBinary};
 use crate::domain::Domain;
+use crate::domain::ops::{Compare, FloatBinary, FloatTernary, FloatUnary, IntBinary};
 use crate::error::Result;
 use crate::kind::{IntType, Kind};
 use crate::width::Width;
@@ -32,7 +32,9 @@ impl<'a, D: Domain> Machine<'a, D> {
             Op::Copy { dst, src } => self.copy(*dst, *src, active),
             Op::FloatUnary { op, w, dst, a } => self.float_unary(*op, *w, *dst, *a, active),
             Op::FloatBinary { op, w, dst, a, b } => self.float_binary(*op, *w, (*dst, *a, *b), active),
-            Op::FloatTernary { op, w, dst, a, b, c } => self.float_ternary(*op, *w, *dst, [*a, *b, *c], active),
+            Op::FloatTernary { op, w, dst, a, b, c } => {
+                self.float_ternary(*op, *w, *dst, [*a, *b, *c], active)
+            }
             Op::Sum { w, dst, terms, n } => self.sum(*w, *dst, &terms[..*n as usize], active),
             Op::FloatCompare { op, w, dst, a, b } => self.float_compare(*op, *w, (*dst, *a, *b), active),
             Op::FrexpExponent { w, dst, a } => self.map1(*dst, *a, active, |x| D::frexp_exponent(*w, x)),
@@ -41,18 +43,39 @@ impl<'a, D: Domain> Machine<'a, D> {
             Op::IsInf { dst, a } => self.map1(*dst, *a, active, |x| classify::<D>(x, f64::is_infinite)),
             Op::IntUnary { op, t, dst, a } => self.map1(*dst, *a, active, |x| D::int_unary(*op, *t, x)),
             Op::IntBinary { op, t, dst, a, b } => self.int_binary(*op, *t, (*dst, *a, *b), active),
-            Op::IntCompare { op, t, dst, a, b } => self.map2(*dst, *a, *b, active, |x, y| D::int_compare(*op, *t, x, y)),
+            Op::IntCompare { op, t, dst, a, b } => {
+                self.map2(*dst, *a, *b, active, |x, y| D::int_compare(*op, *t, x, y))
+            }
             Op::Not { dst, a } => self.map1(*dst, *a, active, D::not),
-            Op::BoolBinary { op, dst, a, b } => self.map2(*dst, *a, *b, active, |x, y| D::bool_binary(*op, x, y)),
-            Op::Select { kind, dst, cond, accept, reject } => self.select(*kind, *dst, [*cond, *accept, *reject], active),
+            Op::BoolBinary { op, dst, a, b } => {
+                self.map2(*dst, *a, *b, active, |x, y| D::bool_binary(*op, x, y))
+            }
+            Op::Select {
+                kind,
+                dst,
+                cond,
+                accept,
+                reject,
+            } => self.select(*kind, *dst, [*cond, *accept, *reject], active),
             Op::Convert { from, to, dst, a } => self.map1(*dst, *a, active, |x| D::convert(*from, *to, x)),
             Op::ToBits { from, dst, a } => self.map1(*dst, *a, active, |x| D::to_bits(*from, x)),
             Op::FromBits { to, dst, a } => self.map1(*dst, *a, active, |x| D::from_bits(*to, x)),
             Op::Pick(pick) => self.pick(pick, active),
             Op::Load(load) => self.load(load, active),
             Op::Store(store) => self.store(store, active),
-            Op::ArrayLength { dst, region, start, stride } => self.array_length(*dst, *region, (*start, *stride), active),
-            Op::Derivative { axis, control, w, dst, a } => self.derivative(*axis, *control, *w, (*dst, *a), active),
+            Op::ArrayLength {
+                dst,
+                region,
+                start,
+                stride,
+            } => self.array_length(*dst, *region, (*start, *stride), active),
+            Op::Derivative {
+                axis,
+                control,
+                w,
+                dst,
+                a,
+            } => self.derivative(*axis, *control, *w, (*dst, *a), active),
             Op::Pack(pack) => self.pack(pack, active),
             Op::Unpack(pack) => self.unpack(pack, active),
             Op::Atomic(atomic) => self.atomic(atomic, active),
@@ -112,10 +135,20 @@ impl<'a, D: Domain> Machine<'a, D> {
     }
 
     #[inline(always)]
-    pub(crate) fn map2(&mut self, dst: Row, a: Row, b: Row, active: &[u32], f: impl Fn(D::Cell, D::Cell) -> D::Cell) {
+    pub(crate) fn map2(
+        &mut self,
+        dst: Row,
+        a: Row,
+        b: Row,
+        active: &[u32],
+        f: impl Fn(D::Cell, D::Cell) -> D::Cell,
+    ) {
         let (n, stride) = (self.lanes.width(), self.stride);
         let (below, above) = self.regs.split_at_mut(dst as usize * stride);
-        let (a, b) = (&below[a as usize * stride..][..n], &below[b as usize * stride..][..n]);
+        let (a, b) = (
+            &below[a as usize * stride..][..n],
+            &below[b as usize * stride..][..n],
+        );
         let out = &mut above[..n];
         if active.len() == n {
             for ((o, &x), &y) in out.iter_mut().zip(a).zip(b) {
@@ -130,7 +163,13 @@ impl<'a, D: Domain> Machine<'a, D> {
     }
 
     #[inline(always)]
-    fn map3(&mut self, dst: Row, [a, b, c]: [Row; 3], active: &[u32], f: impl Fn(D::Cell, D::Cell, D::Cell) -> D::Cell) {
+    fn map3(
+        &mut self,
+        dst: Row,
+        [a, b, c]: [Row; 3],
+        active: &[u32],
+        f: impl Fn(D::Cell, D::Cell, D::Cell) -> D::Cell,
+    ) {
         let (n, stride) = (self.lanes.width(), self.stride);
         let (below, above) = self.regs.split_at_mut(dst as usize * stride);
         let at = |row: Row| &below[row as usize * stride..][..n];
@@ -162,9 +201,20 @@ impl<'a, D: Domain> Machine<'a, D> {
     fn float_binary(&mut self, op: FloatBinary, w: Width, (dst, a, b): (Row, Row, Row), active: &[u32]) {
         by_width!(w, |W| match op {
             FloatBinary::Add => self.map2(dst, a, b, active, |x, y| D::binary(FloatBinary::Add, W, x, y)),
-            FloatBinary::Subtract => self.map2(dst, a, b, active, |x, y| D::binary(FloatBinary::Subtract, W, x, y)),
-            FloatBinary::Multiply => self.map2(dst, a, b, active, |x, y| D::binary(FloatBinary::Multiply, W, x, y)),
-            FloatBinary::Divide => self.map2(dst, a, b, active, |x, y| D::binary(FloatBinary::Divide, W, x, y)),
+            FloatBinary::Subtract => self.map2(dst, a, b, active, |x, y| D::binary(
+                FloatBinary::Subtract,
+                W,
+                x,
+                y
+            )),
+            FloatBinary::Multiply => self.map2(dst, a, b, active, |x, y| D::binary(
+                FloatBinary::Multiply,
+                W,
+                x,
+                y
+            )),
+            FloatBinary::Divide =>
+                self.map2(dst, a, b, active, |x, y| D::binary(FloatBinary::Divide, W, x, y)),
             FloatBinary::Min => self.map2(dst, a, b, active, |x, y| D::binary(FloatBinary::Min, W, x, y)),
             FloatBinary::Max => self.map2(dst, a, b, active, |x, y| D::binary(FloatBinary::Max, W, x, y)),
             FloatBinary::Remainder | FloatBinary::Atan2 | FloatBinary::Pow | FloatBinary::Step => {
@@ -175,8 +225,20 @@ impl<'a, D: Domain> Machine<'a, D> {
 
     fn float_ternary(&mut self, op: FloatTernary, w: Width, dst: Row, rows: [Row; 3], active: &[u32]) {
         by_width!(w, |W| match op {
-            FloatTernary::Fma => self.map3(dst, rows, active, |x, y, z| D::ternary(FloatTernary::Fma, W, x, y, z)),
-            FloatTernary::Clamp => self.map3(dst, rows, active, |x, y, z| D::ternary(FloatTernary::Clamp, W, x, y, z)),
+            FloatTernary::Fma => self.map3(dst, rows, active, |x, y, z| D::ternary(
+                FloatTernary::Fma,
+                W,
+                x,
+                y,
+                z
+            )),
+            FloatTernary::Clamp => self.map3(dst, rows, active, |x, y, z| D::ternary(
+                FloatTernary::Clamp,
+                W,
+                x,
+                y,
+                z
+            )),
             FloatTernary::Mix | FloatTernary::SmoothStep => {
                 self.map3(dst, rows, active, |x, y, z| D::ternary(op, W, x, y, z));
             }
@@ -209,9 +271,17 @@ impl<'a, D: Domain> Machine<'a, D> {
         if t == IntType::U32 || t == IntType::I32 {
             let t = if t.signed { IntType::I32 } else { IntType::U32 };
             match op {
-                IntBinary::Add => return self.map2(dst, a, b, active, |x, y| D::int_binary(IntBinary::Add, t, x, y)),
-                IntBinary::Multiply => return self.map2(dst, a, b, active, |x, y| D::int_binary(IntBinary::Multiply, t, x, y)),
-                IntBinary::Xor => return self.map2(dst, a, b, active, |x, y| D::int_binary(IntBinary::Xor, t, x, y)),
+                IntBinary::Add => {
+                    return self.map2(dst, a, b, active, |x, y| D::int_binary(IntBinary::Add, t, x, y));
+                }
+                IntBinary::Multiply => {
+                    return self.map2(dst, a, b, active, |x, y| {
+                        D::int_binary(IntBinary::Multiply, t, x, y)
+                    });
+                }
+                IntBinary::Xor => {
+                    return self.map2(dst, a, b, active, |x, y| D::int_binary(IntBinary::Xor, t, x, y));
+                }
                 IntBinary::Subtract
                 | IntBinary::Divide
                 | IntBinary::Remainder

@@ -49,8 +49,12 @@ fn code_bounds<D: Domain>(packing: Packing, cell: D::Cell) -> (i128, i128) {
     match packing {
         Packing::Int { signed, clamp } => int_code::<D>(signed, clamp, cell),
         Packing::Half => half_code::<D>(cell, all),
-        Packing::Unorm { bits } => float_code::<D>(cell, all, |x| scaled(x.clamp(0.0, 1.0), (1u64 << bits) - 1)),
-        Packing::Snorm { bits } => float_code::<D>(cell, all, |x| scaled(x.clamp(-1.0, 1.0), (1u64 << (bits - 1)) - 1)),
+        Packing::Unorm { bits } => {
+            float_code::<D>(cell, all, |x| scaled(x.clamp(0.0, 1.0), (1u64 << bits) - 1))
+        }
+        Packing::Snorm { bits } => float_code::<D>(cell, all, |x| {
+            scaled(x.clamp(-1.0, 1.0), (1u64 << (bits - 1)) - 1)
+        }),
     }
 }
 
@@ -65,13 +69,25 @@ fn float_code<D: Domain>(cell: D::Cell, all: (i128, i128), code: impl Fn(f64) ->
         return if D::UNCERTAIN { all } else { (0, 0) };
     }
     // The intermediate product may be rounded in either direction before the floor.
-    let slack = if D::UNCERTAIN { f64::from(f32::EPSILON) } else { 0.0 };
-    wrap_bounds(code(lo - slack * lo.abs()) as i128, code(hi + slack * hi.abs()) as i128, all)
+    let slack = if D::UNCERTAIN {
+        f64::from(f32::EPSILON)
+    } else {
+        0.0
+    };
+    wrap_bounds(
+        code(lo - slack * lo.abs()) as i128,
+        code(hi + slack * hi.abs()) as i128,
+        all,
+    )
 }
 
 /// Two's complement of a range, everything when it crosses zero.
 fn wrap_bounds(lo: i128, hi: i128, all: (i128, i128)) -> (i128, i128) {
-    if lo < 0 && hi >= 0 { all } else { (lo & all.1, hi & all.1) }
+    if lo < 0 && hi >= 0 {
+        all
+    } else {
+        (lo & all.1, hi & all.1)
+    }
 }
 
 fn half_code<D: Domain>(cell: D::Cell, all: (i128, i128)) -> (i128, i128) {
@@ -95,7 +111,11 @@ fn int_code<D: Domain>(signed: bool, clamp: bool, cell: D::Cell) -> (i128, i128)
         let (least, most) = if signed { (-128, 127) } else { (0, 255) };
         (lo, hi) = (lo.clamp(least, most), hi.clamp(least, most));
     }
-    if hi - lo > 255 || (lo & 255) > (hi & 255) { (0, 255) } else { (lo & 255, hi & 255) }
+    if hi - lo > 255 || (lo & 255) > (hi & 255) {
+        (0, 255)
+    } else {
+        (lo & 255, hi & 255)
+    }
 }
 
 fn unpacked<D: Domain>(packing: Packing, (lo, hi): (i128, i128)) -> D::Cell {
@@ -139,7 +159,10 @@ fn normalised<D: Domain>(lo: f64, hi: f64, most: f64) -> D::Cell {
 }
 
 fn half_value<D: Domain>(lo: i128, hi: i128) -> D::Cell {
-    let (a, b) = (float_from_bits(Width::F16, lo as u64), float_from_bits(Width::F16, hi as u64));
+    let (a, b) = (
+        float_from_bits(Width::F16, lo as u64),
+        float_from_bits(Width::F16, hi as u64),
+    );
     if !D::UNCERTAIN {
         return D::float(Width::F32, a);
     }
@@ -150,5 +173,9 @@ fn half_value<D: Domain>(lo: i128, hi: i128) -> D::Cell {
     // A subnormal half is a normal f32, but may be flushed on the way.
     let cell = D::real(Width::F32, a.min(b), a.max(b));
     let subnormal = Width::F16.is_subnormal(a) || Width::F16.is_subnormal(b);
-    if subnormal { D::hull(Kind::Float(Width::F32), cell, D::float(Width::F32, 0.0)) } else { cell }
+    if subnormal {
+        D::hull(Kind::Float(Width::F32), cell, D::float(Width::F32, 0.0))
+    } else {
+        cell
+    }
 }

@@ -48,8 +48,12 @@ impl<'a, D: Domain> Machine<'a, D> {
         match &program.resources[region as usize].kind {
             ResourceKind::Buffer { layout, .. } => RegionKinds::Buffer(layout),
             ResourceKind::Workgroup { kinds } => RegionKinds::Workgroup(kinds),
-            ResourceKind::StorageTexture { format, .. } => RegionKinds::Texels(crate::texture::storage_kind(*format)),
-            ResourceKind::Texture { .. } | ResourceKind::Sampler { .. } => RegionKinds::Texels(Kind::Float(Width::F32)),
+            ResourceKind::StorageTexture { format, .. } => {
+                RegionKinds::Texels(crate::texture::storage_kind(*format))
+            }
+            ResourceKind::Texture { .. } | ResourceKind::Sampler { .. } => {
+                RegionKinds::Texels(Kind::Float(Width::F32))
+            }
         }
     }
 
@@ -80,7 +84,11 @@ impl<'a, D: Domain> Machine<'a, D> {
             inside &= index == lo;
             offset += index as u32 * dim.stride;
         }
-        if inside { Target::One(offset) } else { Target::Outside(Some(offset)) }
+        if inside {
+            Target::One(offset)
+        } else {
+            Target::Outside(Some(offset))
+        }
     }
 
     /// All offsets of a place with uncertain indices.
@@ -98,7 +106,9 @@ impl<'a, D: Domain> Machine<'a, D> {
             if (hi - lo + 1) * offsets.len() as i128 > i128::from(self.context.limits.spread) {
                 return Target::Unknown;
             }
-            offsets = (lo..=hi).flat_map(|i| offsets.iter().map(move |o| o + i as u32 * dim.stride)).collect();
+            offsets = (lo..=hi)
+                .flat_map(|i| offsets.iter().map(move |o| o + i as u32 * dim.stride))
+                .collect();
         }
         Target::Several { offsets, outside }
     }
@@ -115,7 +125,11 @@ impl<'a, D: Domain> Machine<'a, D> {
     fn poke(&mut self, root: Root, at: u32, lane: u32, kind: Kind, cell: D::Cell, weak: bool) {
         match root {
             Root::Rows { base, .. } => {
-                let cell = if weak { D::hull(kind, self.get(base + at, lane), cell) } else { cell };
+                let cell = if weak {
+                    D::hull(kind, self.get(base + at, lane), cell)
+                } else {
+                    cell
+                };
                 self.set(base + at, lane, cell);
             }
             Root::Memory(region) => self.write(region, at, lane, kind, cell, weak),
@@ -152,13 +166,19 @@ impl<'a, D: Domain> Machine<'a, D> {
         match target {
             Target::One(at) if self.fits(place.root, *at + k, 1) => self.peek(place.root, at + k, lane, kind),
             Target::One(_) | Target::Outside(None) => outside_value::<D>(kind, None),
-            Target::Outside(Some(at)) => outside_value::<D>(kind, Some(self.peek(place.root, at + k, lane, kind))),
+            Target::Outside(Some(at)) => {
+                outside_value::<D>(kind, Some(self.peek(place.root, at + k, lane, kind)))
+            }
             Target::Unknown => D::undecided(kind),
             Target::Several { offsets, outside } => {
                 let mut cells = offsets.iter().map(|at| self.peek(place.root, at + k, lane, kind));
                 let first = cells.next().unwrap_or_else(|| D::indeterminate(kind));
                 let all = cells.fold(first, |a, b| D::hull(kind, a, b));
-                if *outside { D::hull(kind, all, D::indeterminate(kind)) } else { all }
+                if *outside {
+                    D::hull(kind, all, D::indeterminate(kind))
+                } else {
+                    all
+                }
             }
         }
     }
@@ -175,7 +195,9 @@ impl<'a, D: Domain> Machine<'a, D> {
                 }
                 Target::Several { offsets, .. } => {
                     let weak = offsets.len() > 1;
-                    offsets.into_iter().for_each(|at| self.store_at(store, at, lane, weak));
+                    offsets
+                        .into_iter()
+                        .for_each(|at| self.store_at(store, at, lane, weak));
                 }
                 Target::Outside(_) => {}
                 Target::Unknown => self.store_anywhere(store, lane),
@@ -209,14 +231,27 @@ impl<'a, D: Domain> Machine<'a, D> {
             for (k, &kind) in pick.kinds.iter().enumerate() {
                 let (a, b) = (lo.clamp(0, last) as usize, hi.clamp(0, last) as usize);
                 let first = self.get(pick.groups[a][k], lane);
-                let all = pick.groups[a..=b].iter().skip(1).fold(first, |c, g| D::hull(kind, c, self.get(g[k], lane)));
-                let cell = if outside { outside_value::<D>(kind, Some(all)) } else { all };
+                let all = pick.groups[a..=b]
+                    .iter()
+                    .skip(1)
+                    .fold(first, |c, g| D::hull(kind, c, self.get(g[k], lane)));
+                let cell = if outside {
+                    outside_value::<D>(kind, Some(all))
+                } else {
+                    all
+                };
                 self.set(pick.dst + k as u32, lane, cell);
             }
         }
     }
 
-    pub(crate) fn array_length(&mut self, dst: Row, region: RegionId, (start, stride): (u32, u32), active: &[u32]) {
+    pub(crate) fn array_length(
+        &mut self,
+        dst: Row,
+        region: RegionId,
+        (start, stride): (u32, u32),
+        active: &[u32],
+    ) {
         let n = (self.view.len(region) as u32).saturating_sub(start) / stride.max(1);
         for &lane in active {
             self.set(dst, lane, D::int(IntType::U32, i128::from(n)));

@@ -18,7 +18,14 @@ use naga::{DerivativeAxis as Axis, DerivativeControl as Control};
 pub(crate) const SUBGROUP: usize = 32;
 
 impl<'a, D: Domain> Machine<'a, D> {
-    pub(crate) fn derivative(&mut self, axis: Axis, control: Control, w: Width, (dst, a): (Row, Row), active: &[u32]) {
+    pub(crate) fn derivative(
+        &mut self,
+        axis: Axis,
+        control: Control,
+        w: Width,
+        (dst, a): (Row, Row),
+        active: &[u32],
+    ) {
         let quads = self.by_invocation(a, Kind::Float(w), active);
         for &lane in active {
             let root = self.lanes.root[lane as usize] as usize;
@@ -42,12 +49,18 @@ impl<'a, D: Domain> Machine<'a, D> {
     pub(crate) fn subgroup(&mut self, op: &Subgroup, active: &[u32], span: u32) -> Result<()> {
         if D::UNCERTAIN {
             let what = format!("subgroup operations over the domain `{}`", D::NAME);
-            return Err(Error::Unsupported { what, span: self.span(span) });
+            return Err(Error::Unsupported {
+                what,
+                span: self.span(span),
+            });
         }
         let mut at = 0;
         while at < active.len() {
             let group = active[at] as usize / SUBGROUP;
-            let end = active[at..].iter().position(|&l| l as usize / SUBGROUP != group).map_or(active.len(), |n| at + n);
+            let end = active[at..]
+                .iter()
+                .position(|&l| l as usize / SUBGROUP != group)
+                .map_or(active.len(), |n| at + n);
             self.one_subgroup(op, &active[at..end]);
             at = end;
         }
@@ -55,19 +68,27 @@ impl<'a, D: Domain> Machine<'a, D> {
     }
 
     fn one_subgroup(&mut self, op: &Subgroup, members: &[u32]) {
-        let argument = |machine: &Self, lane: u32| op.argument.map_or_else(D::Cell::default, |row| machine.get(row, lane));
+        let argument = |machine: &Self, lane: u32| {
+            op.argument
+                .map_or_else(D::Cell::default, |row| machine.get(row, lane))
+        };
         let values: Vec<D::Cell> = members.iter().map(|&lane| argument(self, lane)).collect();
         if let SubgroupOp::Ballot = op.op {
             return self.ballot(op.dst, members, &values);
         }
-        let results: Vec<D::Cell> = (0..members.len()).map(|k| self.member_result(op, members, &values, k)).collect();
+        let results: Vec<D::Cell> = (0..members.len())
+            .map(|k| self.member_result(op, members, &values, k))
+            .collect();
         for (&lane, cell) in members.iter().zip(results) {
             self.set(op.dst, lane, cell);
         }
     }
 
     fn ballot(&mut self, dst: Row, members: &[u32], values: &[D::Cell]) {
-        let set = members.iter().zip(values).filter(|(_, v)| D::truth(**v) == crate::Truth::True);
+        let set = members
+            .iter()
+            .zip(values)
+            .filter(|(_, v)| D::truth(**v) == crate::Truth::True);
         let mask = set.fold(0i128, |m, (&lane, _)| m | 1 << (lane as usize % SUBGROUP));
         for &lane in members {
             self.set(dst, lane, D::int(IntType::U32, mask));
@@ -142,7 +163,14 @@ pub(crate) fn quad_derivative<D: Domain>(
 
 /// The difference along one axis (`bit` 1 for x, 2 for y): in the pixel's own row or column for fine derivatives, in the first
 /// one for coarse ones, in either where that is left open.
-fn difference<D: Domain>(control: Control, w: Width, values: &[Option<D::Cell>], root: usize, own: D::Cell, bit: usize) -> D::Cell {
+fn difference<D: Domain>(
+    control: Control,
+    w: Width,
+    values: &[Option<D::Cell>],
+    root: usize,
+    own: D::Cell,
+    bit: usize,
+) -> D::Cell {
     let own_line = line::<D>(w, values, root, own, root & !bit, root | bit);
     let (first_low, first_high) = (root & !3, (root & !3) | bit);
     match control {
@@ -157,8 +185,21 @@ fn difference<D: Domain>(control: Control, w: Width, values: &[Option<D::Cell>],
     }
 }
 
-fn line<D: Domain>(w: Width, values: &[Option<D::Cell>], root: usize, own: D::Cell, low: usize, high: usize) -> D::Cell {
-    let at = |k: usize| if k == root { Some(own) } else { values.get(k).copied().flatten() };
+fn line<D: Domain>(
+    w: Width,
+    values: &[Option<D::Cell>],
+    root: usize,
+    own: D::Cell,
+    low: usize,
+    high: usize,
+) -> D::Cell {
+    let at = |k: usize| {
+        if k == root {
+            Some(own)
+        } else {
+            values.get(k).copied().flatten()
+        }
+    };
     match (at(low), at(high)) {
         (Some(a), Some(b)) => D::binary(FloatBinary::Subtract, w, b, a),
         // A neighbour that is not here has no value: indeterminate, and zero for a perfect machine.

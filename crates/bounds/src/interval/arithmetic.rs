@@ -10,7 +10,11 @@ use crate::width::{Width, exp2i, two_sum};
 /// Flags of a result whose arguments carry flags; `Err` when nothing is left to compute.
 #[inline(always)]
 pub(crate) fn enter<const ABSORB: bool>(flags: Flags) -> Result<Flags, Interval> {
-    if ABSORB && !flags.is_none() { Err(Interval::unknown(flags)) } else { Ok(flags) }
+    if ABSORB && !flags.is_none() {
+        Err(Interval::unknown(flags))
+    } else {
+        Ok(flags)
+    }
 }
 
 #[inline(always)]
@@ -24,12 +28,17 @@ pub(crate) fn add<const ABSORB: bool>(w: Width, a: Interval, b: Interval) -> Int
     }
     let (lo, below) = two_sum(a.lo, b.lo);
     let (hi, above) = two_sum(a.hi, b.hi);
-    let (lo, hi) = if ABSORB { (lo, hi) } else { (or(lo, f64::NEG_INFINITY), or(hi, f64::INFINITY)) };
+    let (lo, hi) = if ABSORB {
+        (lo, hi)
+    } else {
+        (or(lo, f64::NEG_INFINITY), or(hi, f64::INFINITY))
+    };
     finish::<ABSORB>(w, w.round_down(lo, below), w.round_up(hi, above)).flagged(flags)
 }
 
 fn opposite_infinities(a: Interval, b: Interval) -> bool {
-    (a.hi == f64::INFINITY && b.lo == f64::NEG_INFINITY) || (a.lo == f64::NEG_INFINITY && b.hi == f64::INFINITY)
+    (a.hi == f64::INFINITY && b.lo == f64::NEG_INFINITY)
+        || (a.lo == f64::NEG_INFINITY && b.hi == f64::INFINITY)
 }
 
 #[inline(always)]
@@ -39,7 +48,11 @@ fn or(x: f64, instead: f64) -> f64 {
 
 #[inline(always)]
 pub(crate) fn negate(a: Interval) -> Interval {
-    Interval { lo: -a.hi, hi: -a.lo, flags: a.flags }
+    Interval {
+        lo: -a.hi,
+        hi: -a.lo,
+        flags: a.flags,
+    }
 }
 
 #[inline(always)]
@@ -56,7 +69,11 @@ pub(crate) fn multiply<const ABSORB: bool>(w: Width, a: Interval, b: Interval) -
     if !ABSORB && zero_times_infinity(a, b) {
         flags = flags.union(Flags::NAN);
     }
-    let (lo, hi) = if w == Width::F64 { product_bounds_f64(a, b) } else { product_bounds(w, a, b) };
+    let (lo, hi) = if w == Width::F64 {
+        product_bounds_f64(a, b)
+    } else {
+        product_bounds(w, a, b)
+    };
     finish::<ABSORB>(w, lo, hi).flagged(flags)
 }
 
@@ -84,7 +101,11 @@ fn product_bounds_f64(a: Interval, b: Interval) -> (f64, f64) {
         let tiny = p != 0.0 && p.abs() < 1e-290;
         let residual = or(x.mul_add(y, -p), 0.0);
         // Near the bottom of the format the residual itself may underflow: step either way.
-        let (below, above) = if tiny || (p == 0.0 && x != 0.0 && y != 0.0) { (-1.0, 1.0) } else { (residual, residual) };
+        let (below, above) = if tiny || (p == 0.0 && x != 0.0 && y != 0.0) {
+            (-1.0, 1.0)
+        } else {
+            (residual, residual)
+        };
         lo = lo.min(Width::F64.round_down(p, below));
         hi = hi.max(Width::F64.round_up(p, above));
     }
@@ -102,7 +123,11 @@ pub(crate) fn square<const ABSORB: bool>(w: Width, a: Interval) -> Interval {
 pub(crate) fn magnitude(a: Interval) -> Interval {
     let (p, q) = (a.lo.abs(), a.hi.abs());
     let lo = if a.contains_zero() { 0.0 } else { p.min(q) };
-    Interval { lo, hi: p.max(q), flags: a.flags }
+    Interval {
+        lo,
+        hi: p.max(q),
+        flags: a.flags,
+    }
 }
 
 /// 2.5 ULP for a divisor in the stated range; a divisor that may be zero or outside of it leaves the quotient open.
@@ -112,7 +137,11 @@ pub(crate) fn divide<const ABSORB: bool>(w: Width, a: Interval, b: Interval) -> 
         Err(unknown) => return unknown,
     };
     if b.lo < w.min_normal() && b.hi > -w.min_normal() {
-        let nan = if a.contains_zero() || !ABSORB { Flags::NAN } else { Flags::NONE };
+        let nan = if a.contains_zero() || !ABSORB {
+            Flags::NAN
+        } else {
+            Flags::NONE
+        };
         return unbounded::<ABSORB>(nan).flagged(flags);
     }
     let stated = exp2i(w.quotient_exponent());
@@ -127,10 +156,18 @@ pub(crate) fn divide<const ABSORB: bool>(w: Width, a: Interval, b: Interval) -> 
     let lo = q[0].min(q[1]).min(q[2].min(q[3]));
     let hi = q[0].max(q[1]).max(q[2].max(q[3]));
     let exact = lo == hi && lo.mul_add(-b.lo, a.lo) == 0.0;
-    let result = if exact { within_ulps_of::<ABSORB>(w, lo, DIVIDE_ULPS) } else { within_ulps::<ABSORB>(w, lo, hi, DIVIDE_ULPS) };
+    let result = if exact {
+        within_ulps_of::<ABSORB>(w, lo, DIVIDE_ULPS)
+    } else {
+        within_ulps::<ABSORB>(w, lo, hi, DIVIDE_ULPS)
+    };
     let result = result.flagged(flags);
     // A large divisor may be handled through its reciprocal, which may flush to zero.
-    if outside { result.hull(Interval::point(0.0)) } else { result }
+    if outside {
+        result.hull(Interval::point(0.0))
+    } else {
+        result
+    }
 }
 
 /// No bound at all: indeterminate in `Accept`, everything with the given flags in `Range`.
@@ -145,14 +182,22 @@ pub(crate) fn remainder<const ABSORB: bool>(w: Width, a: Interval, b: Interval) 
     if ABSORB && !q.flags.is_none() {
         return q;
     }
-    let whole = Interval { lo: q.lo.trunc(), hi: q.hi.trunc(), flags: q.flags };
+    let whole = Interval {
+        lo: q.lo.trunc(),
+        hi: q.hi.trunc(),
+        flags: q.flags,
+    };
     subtract::<ABSORB>(w, a, multiply::<ABSORB>(w, b, whole))
 }
 
 #[inline(always)]
 pub(crate) fn minimum<const ABSORB: bool>(a: Interval, b: Interval) -> Interval {
     match enter::<ABSORB>(a.flags.union(b.flags)) {
-        Ok(flags) => Interval { lo: a.lo.min(b.lo), hi: a.hi.min(b.hi), flags },
+        Ok(flags) => Interval {
+            lo: a.lo.min(b.lo),
+            hi: a.hi.min(b.hi),
+            flags,
+        },
         Err(unknown) => unknown,
     }
 }
@@ -160,7 +205,11 @@ pub(crate) fn minimum<const ABSORB: bool>(a: Interval, b: Interval) -> Interval 
 #[inline(always)]
 pub(crate) fn maximum<const ABSORB: bool>(a: Interval, b: Interval) -> Interval {
     match enter::<ABSORB>(a.flags.union(b.flags)) {
-        Ok(flags) => Interval { lo: a.lo.max(b.lo), hi: a.hi.max(b.hi), flags },
+        Ok(flags) => Interval {
+            lo: a.lo.max(b.lo),
+            hi: a.hi.max(b.hi),
+            flags,
+        },
         Err(unknown) => unknown,
     }
 }
@@ -171,7 +220,10 @@ pub(crate) fn clamp<const ABSORB: bool>(x: Interval, low: Interval, high: Interv
     if low.hi <= high.lo || !usual.flags.is_none() {
         return usual;
     }
-    usual.hull(Interval::new(median(x.lo, low.lo, high.lo), median(x.hi, low.hi, high.hi)))
+    usual.hull(Interval::new(
+        median(x.lo, low.lo, high.lo),
+        median(x.hi, low.hi, high.hi),
+    ))
 }
 
 fn median(a: f64, b: f64, c: f64) -> f64 {
@@ -192,11 +244,20 @@ pub(crate) fn mix<const ABSORB: bool>(w: Width, x: Interval, y: Interval, z: Int
 }
 
 /// Inherited from `t * t * (3 - 2 * t)` with `t = clamp((x - edge0) / (edge1 - edge0), 0, 1)`.
-pub(crate) fn smooth_step<const ABSORB: bool>(w: Width, edge0: Interval, edge1: Interval, x: Interval) -> Interval {
+pub(crate) fn smooth_step<const ABSORB: bool>(
+    w: Width,
+    edge0: Interval,
+    edge1: Interval,
+    x: Interval,
+) -> Interval {
     let span = subtract::<ABSORB>(w, edge1, edge0);
     let raw = divide::<ABSORB>(w, subtract::<ABSORB>(w, x, edge0), span);
     let t = clamp::<ABSORB>(raw, Interval::point(0.0), Interval::point(1.0));
-    let falling = subtract::<ABSORB>(w, Interval::point(3.0), multiply::<ABSORB>(w, Interval::point(2.0), t));
+    let falling = subtract::<ABSORB>(
+        w,
+        Interval::point(3.0),
+        multiply::<ABSORB>(w, Interval::point(2.0), t),
+    );
     multiply::<ABSORB>(w, square::<ABSORB>(w, t), falling)
 }
 
@@ -216,11 +277,19 @@ fn three(add: &impl Fn(Interval, Interval) -> Interval, a: Interval, b: Interval
     add(add(a, b), c).hull(add(add(a, c), b)).hull(add(add(b, c), a))
 }
 
-fn four(add: &impl Fn(Interval, Interval) -> Interval, a: Interval, b: Interval, c: Interval, d: Interval) -> Interval {
+fn four(
+    add: &impl Fn(Interval, Interval) -> Interval,
+    a: Interval,
+    b: Interval,
+    c: Interval,
+    d: Interval,
+) -> Interval {
     let chains = add(three(add, b, c, d), a)
         .hull(add(three(add, a, c, d), b))
         .hull(add(three(add, a, b, d), c))
         .hull(add(three(add, a, b, c), d));
-    let pairs = add(add(a, b), add(c, d)).hull(add(add(a, c), add(b, d))).hull(add(add(a, d), add(b, c)));
+    let pairs = add(add(a, b), add(c, d))
+        .hull(add(add(a, c), add(b, d)))
+        .hull(add(add(a, d), add(b, c)));
     chains.hull(pairs)
 }

@@ -47,9 +47,16 @@ pub(crate) fn bits_of(w: Width, x: Interval) -> (Bounds, Flags) {
     if !x.flags.is_none() {
         return (all, x.flags);
     }
-    let (a, b) = (i128::from(float_to_bits(w, x.lo)), i128::from(float_to_bits(w, x.hi)));
+    let (a, b) = (
+        i128::from(float_to_bits(w, x.lo)),
+        i128::from(float_to_bits(w, x.hi)),
+    );
     let crosses_zero = x.lo != x.hi && x.contains_zero() && !(x.lo == 0.0 && x.lo.is_sign_positive());
-    if crosses_zero { (all, Flags::NONE) } else { ((a.min(b), a.max(b)), Flags::NONE) }
+    if crosses_zero {
+        (all, Flags::NONE)
+    } else {
+        ((a.min(b), a.max(b)), Flags::NONE)
+    }
 }
 
 /// The float with a bit pattern: exact for one pattern, bounded where all patterns are finite and of one sign.

@@ -19,12 +19,20 @@ fn put_float(x: Interval) -> WideCell {
 
 #[inline(always)]
 fn get_int(t: IntType, c: WideCell) -> Bounds {
-    if t.signed { (i128::from(c.lo as i64), i128::from(c.hi as i64)) } else { (i128::from(c.lo), i128::from(c.hi)) }
+    if t.signed {
+        (i128::from(c.lo as i64), i128::from(c.hi as i64))
+    } else {
+        (i128::from(c.lo), i128::from(c.hi))
+    }
 }
 
 #[inline(always)]
 fn put_int((lo, hi): Bounds, flags: Flags) -> WideCell {
-    WideCell { lo: lo as u64, hi: hi as u64, flags }
+    WideCell {
+        lo: lo as u64,
+        hi: hi as u64,
+        flags,
+    }
 }
 
 #[inline(always)]
@@ -89,7 +97,11 @@ fn step(edge: Interval, x: Interval) -> Interval {
     match integers::compare(Compare::LessEqual, (edge.lo, edge.hi), (x.lo, x.hi)) {
         Truth::True if flags.is_none() => Interval::point(1.0),
         Truth::False if flags.is_none() => Interval::point(0.0),
-        Truth::True | Truth::False | Truth::Maybe => Interval { lo: 0.0, hi: 1.0, flags },
+        Truth::True | Truth::False | Truth::Maybe => Interval {
+            lo: 0.0,
+            hi: 1.0,
+            flags,
+        },
     }
 }
 
@@ -117,15 +129,27 @@ fn compare(op: Compare, a: Interval, b: Interval) -> WideCell {
 #[inline(always)]
 fn int_binary(op: IntBinary, t: IntType, a: WideCell, b: WideCell) -> WideCell {
     let shift = matches!(op, IntBinary::ShiftLeft | IntBinary::ShiftRight);
-    let other = if shift { IntType { signed: false, bits: 32 } } else { t };
-    put_int(integers::binary(op, t, get_int(t, a), get_int(other, b)), a.flags.union(b.flags))
+    let other = if shift {
+        IntType {
+            signed: false,
+            bits: 32,
+        }
+    } else {
+        t
+    };
+    put_int(
+        integers::binary(op, t, get_int(t, a), get_int(other, b)),
+        a.flags.union(b.flags),
+    )
 }
 
 fn bool_binary(op: BoolBinary, a: WideCell, b: WideCell) -> WideCell {
     let (x, y) = (get_truth(a), get_truth(b));
     let flags = a.flags.union(b.flags);
     let result = match op {
-        BoolBinary::And if x == Truth::False || y == Truth::False => return put_truth(Truth::False, Flags::NONE),
+        BoolBinary::And if x == Truth::False || y == Truth::False => {
+            return put_truth(Truth::False, Flags::NONE);
+        }
         BoolBinary::Or if x == Truth::True || y == Truth::True => return put_truth(Truth::True, Flags::NONE),
         BoolBinary::And | BoolBinary::Or => x.hull(y),
         BoolBinary::Equal if x == Truth::Maybe || y == Truth::Maybe => Truth::Maybe,
@@ -146,17 +170,26 @@ fn convert<const A: bool>(from: Kind, to: Kind, a: WideCell) -> WideCell {
         (Kind::Float(_), Kind::Bool) => compare(Compare::NotEqual, a.interval(), Interval::point(0.0)),
         (Kind::Int(t), Kind::Float(w)) => put_float(bits::integer_to_float::<A>(w, get_int(t, a), a.flags)),
         (Kind::Int(t), Kind::Int(u)) => put_int(resize(u, get_int(t, a)), a.flags),
-        (Kind::Int(t), Kind::Bool) => put_truth(integers::compare(Compare::NotEqual, get_int(t, a), (0, 0)), a.flags),
-        (Kind::Bool, Kind::Float(_)) => {
-            put_float(Interval { lo: a.lo as f64, hi: a.hi as f64, flags: a.flags })
-        }
+        (Kind::Int(t), Kind::Bool) => put_truth(
+            integers::compare(Compare::NotEqual, get_int(t, a), (0, 0)),
+            a.flags,
+        ),
+        (Kind::Bool, Kind::Float(_)) => put_float(Interval {
+            lo: a.lo as f64,
+            hi: a.hi as f64,
+            flags: a.flags,
+        }),
         (Kind::Bool, Kind::Int(_) | Kind::Bool) => a,
     }
 }
 
 fn resize(t: IntType, (lo, hi): Bounds) -> Bounds {
     let (a, b) = (t.wrap(lo), t.wrap(hi));
-    if a <= b && b - a == hi - lo { (a, b) } else { integers::whole(t) }
+    if a <= b && b - a == hi - lo {
+        (a, b)
+    } else {
+        integers::whole(t)
+    }
 }
 
 macro_rules! interval_domain {
@@ -182,12 +215,20 @@ macro_rules! interval_domain {
             }
             fn from_float(w: Width, x: Interval) -> WideCell {
                 let bounds = Interval::new(w.round_down(x.lo, 0.0), w.round_up(x.hi, 0.0));
-                put_float(if x.flags.is_none() { flush(w, bounds) } else { x })
+                put_float(if x.flags.is_none() {
+                    flush(w, bounds)
+                } else {
+                    x
+                })
             }
             #[inline(always)]
             fn float_bounds(c: WideCell) -> (f64, f64) {
                 let x = c.interval();
-                if x.flags.is_none() { (x.lo, x.hi) } else { (f64::NAN, f64::NAN) }
+                if x.flags.is_none() {
+                    (x.lo, x.hi)
+                } else {
+                    (f64::NAN, f64::NAN)
+                }
             }
             #[inline(always)]
             fn int_bounds(t: IntType, c: WideCell) -> Bounds {
@@ -222,7 +263,13 @@ macro_rules! interval_domain {
             }
             #[inline(always)]
             fn ternary(op: FloatTernary, w: Width, a: WideCell, b: WideCell, c: WideCell) -> WideCell {
-                put_float(ternary::<$absorb>(op, w, a.interval(), b.interval(), c.interval()))
+                put_float(ternary::<$absorb>(
+                    op,
+                    w,
+                    a.interval(),
+                    b.interval(),
+                    c.interval(),
+                ))
             }
             fn sum(w: Width, terms: &[WideCell]) -> WideCell {
                 let mut list = [Interval::point(0.0); 4];
@@ -248,7 +295,11 @@ macro_rules! interval_domain {
             }
             fn ldexp(w: Width, x: WideCell, e: WideCell) -> WideCell {
                 let (lo, hi) = get_int(IntType::I32, e);
-                put_float(functions::ldexp::<$absorb>(w, x.interval().flagged(e.flags), (lo as i32, hi as i32)))
+                put_float(functions::ldexp::<$absorb>(
+                    w,
+                    x.interval().flagged(e.flags),
+                    (lo as i32, hi as i32),
+                ))
             }
             fn int_unary(op: IntUnary, t: IntType, a: WideCell) -> WideCell {
                 put_int(integers::unary(op, t, get_int(t, a)), a.flags)
@@ -257,7 +308,10 @@ macro_rules! interval_domain {
                 int_binary(op, t, a, b)
             }
             fn int_compare(op: Compare, t: IntType, a: WideCell, b: WideCell) -> WideCell {
-                put_truth(integers::compare(op, get_int(t, a), get_int(t, b)), a.flags.union(b.flags))
+                put_truth(
+                    integers::compare(op, get_int(t, a), get_int(t, b)),
+                    a.flags.union(b.flags),
+                )
             }
             fn not(a: WideCell) -> WideCell {
                 put_truth(integers::negate(get_truth(a)), a.flags)
@@ -290,7 +344,10 @@ macro_rules! interval_domain {
                 match to {
                     Kind::Float(w) => put_float(bits::float_of::<$absorb>(w, bounds, a.flags)),
                     Kind::Int(t) => put_int(resize(t, bounds), a.flags),
-                    Kind::Bool => put_truth(integers::compare(Compare::NotEqual, bounds, (0, 0)), a.flags),
+                    Kind::Bool => put_truth(
+                        integers::compare(Compare::NotEqual, bounds, (0, 0)),
+                        a.flags,
+                    ),
                 }
             }
         }

@@ -7,8 +7,8 @@ use super::arithmetic::{
     add, divide, enter, magnitude, maximum, minimum, multiply, negate, square, subtract, unbounded,
 };
 use super::rules::{
-    INVERSE_SQRT_ULPS, LOG_ULPS, TANH_ERROR, acos_error, asin_error, atan_ulps, exp_ulps, finish, log_error, outward, sin_error,
-    within_absolute, within_ulps,
+    INVERSE_SQRT_ULPS, LOG_ULPS, TANH_ERROR, acos_error, asin_error, atan_ulps, exp_ulps, finish, log_error,
+    outward, sin_error, within_absolute, within_ulps,
 };
 use super::{Flags, Interval};
 use crate::domain::ops::FloatUnary;
@@ -76,7 +76,9 @@ fn rarer<const A: bool>(op: FloatUnary, w: Width, a: Interval) -> Interval {
         FloatUnary::Tan => tan::<A>(w, a),
         FloatUnary::Asin => asin::<A>(w, a),
         FloatUnary::Acos => acos::<A>(w, a),
-        FloatUnary::Atan => monotone::<A>(a, |lo, hi| within_ulps::<A>(w, lo.atan(), hi.atan(), atan_ulps(w))),
+        FloatUnary::Atan => monotone::<A>(a, |lo, hi| {
+            within_ulps::<A>(w, lo.atan(), hi.atan(), atan_ulps(w))
+        }),
         FloatUnary::Sinh => sinh::<A>(w, a),
         FloatUnary::Cosh => cosh::<A>(w, a),
         FloatUnary::Tanh => tanh::<A>(w, a),
@@ -99,7 +101,11 @@ fn rarer<const A: bool>(op: FloatUnary, w: Width, a: Interval) -> Interval {
 #[inline(always)]
 fn exact<const A: bool>(a: Interval, f: impl Fn(f64) -> f64) -> Interval {
     match enter::<A>(a.flags) {
-        Ok(flags) => Interval { lo: f(a.lo), hi: f(a.hi), flags },
+        Ok(flags) => Interval {
+            lo: f(a.lo),
+            hi: f(a.hi),
+            flags,
+        },
         Err(unknown) => unknown,
     }
 }
@@ -148,7 +154,10 @@ fn modf_fract<const A: bool>(a: Interval) -> Interval {
         if step == hi.trunc() && lo.is_finite() {
             Interval::new(lo - step, hi - step)
         } else {
-            Interval::new(if lo < 0.0 { -1.0 } else { 0.0 }, if hi > 0.0 { 1.0 } else { 0.0 })
+            Interval::new(
+                if lo < 0.0 { -1.0 } else { 0.0 },
+                if hi > 0.0 { 1.0 } else { 0.0 },
+            )
         }
     })
 }
@@ -160,7 +169,13 @@ fn frexp_fract<const A: bool>(w: Width, a: Interval) -> Interval {
     }
     monotone::<A>(a, |lo, hi| {
         let ((f, e), (g, h)) = (frexp(w, lo), frexp(w, hi));
-        if e == h { Interval::new(f, g) } else if lo > 0.0 { Interval::new(0.5, 1.0) } else { Interval::new(-1.0, -0.5) }
+        if e == h {
+            Interval::new(f, g)
+        } else if lo > 0.0 {
+            Interval::new(0.5, 1.0)
+        } else {
+            Interval::new(-1.0, -0.5)
+        }
     })
 }
 
@@ -169,7 +184,9 @@ pub(crate) fn inverse_sqrt<const A: bool>(w: Width, a: Interval) -> Interval {
     if a.lo < w.min_normal() {
         return unbounded::<A>(if a.lo < 0.0 { Flags::NAN } else { Flags::NONE }).flagged(a.flags);
     }
-    monotone::<A>(a, |lo, hi| within_ulps::<A>(w, 1.0 / hi.sqrt(), 1.0 / lo.sqrt(), INVERSE_SQRT_ULPS))
+    monotone::<A>(a, |lo, hi| {
+        within_ulps::<A>(w, 1.0 / hi.sqrt(), 1.0 / lo.sqrt(), INVERSE_SQRT_ULPS)
+    })
 }
 
 /// Inherited from `1 / inverseSqrt(x)`; the root of zero is zero. The roots below the least normal number may be flushed.
@@ -186,11 +203,21 @@ pub(crate) fn sqrt<const A: bool>(w: Width, a: Interval) -> Interval {
     }
     let least = w.min_normal();
     if a.hi < least {
-        return outward::<A>(w, 0.0, least.sqrt()).flagged(flags).hull(Interval::point(0.0));
+        return outward::<A>(w, 0.0, least.sqrt())
+            .flagged(flags)
+            .hull(Interval::point(0.0));
     }
     let normal = Interval::new(a.lo.max(least), a.hi);
-    let root = if normal.hi == f64::INFINITY { Interval::new(0.0, f64::INFINITY) } else { root::<A>(w, normal) };
-    if a.lo < least { root.hull(Interval::point(0.0)).flagged(flags) } else { root.flagged(flags) }
+    let root = if normal.hi == f64::INFINITY {
+        Interval::new(0.0, f64::INFINITY)
+    } else {
+        root::<A>(w, normal)
+    };
+    if a.lo < least {
+        root.hull(Interval::point(0.0)).flagged(flags)
+    } else {
+        root.flagged(flags)
+    }
 }
 
 fn root<const A: bool>(w: Width, a: Interval) -> Interval {
@@ -210,13 +237,20 @@ fn periodic<const A: bool>(w: Width, a: Interval, f: fn(f64) -> f64, peak: f64) 
         return Interval::unknown(Flags::INDETERMINATE);
     }
     let (lo, hi) = extrema(a, f, peak);
-    let nan = if a.lo.is_finite() && a.hi.is_finite() { Flags::NONE } else { Flags::NAN };
+    let nan = if a.lo.is_finite() && a.hi.is_finite() {
+        Flags::NONE
+    } else {
+        Flags::NAN
+    };
     within_absolute::<A>(w, lo, hi, sin_error(w)).flagged(flags.union(nan))
 }
 
 fn extrema(a: Interval, f: fn(f64) -> f64, peak: f64) -> (f64, f64) {
     // Beyond 2^40 the phase in f64 is no longer good to the error the table allows.
-    if !(a.lo.is_finite() && a.hi.is_finite()) || a.hi - a.lo >= 2.0 * PI || a.hi.abs().max(a.lo.abs()) > exp2i(40) {
+    if !(a.lo.is_finite() && a.hi.is_finite())
+        || a.hi - a.lo >= 2.0 * PI
+        || a.hi.abs().max(a.lo.abs()) > exp2i(40)
+    {
         return (-1.0, 1.0);
     }
     let passes = |at: f64| ((a.lo - at) / (2.0 * PI)).ceil() * (2.0 * PI) + at <= a.hi;
@@ -228,7 +262,11 @@ fn extrema(a: Interval, f: fn(f64) -> f64, peak: f64) -> (f64, f64) {
 
 /// Inherited from `sin(x) / cos(x)`.
 fn tan<const A: bool>(w: Width, a: Interval) -> Interval {
-    divide::<A>(w, periodic::<A>(w, a, f64::sin, FRAC_PI_2), periodic::<A>(w, a, f64::cos, 0.0))
+    divide::<A>(
+        w,
+        periodic::<A>(w, a, f64::sin, FRAC_PI_2),
+        periodic::<A>(w, a, f64::cos, 0.0),
+    )
 }
 
 /// 4096 ULP for a normal divisor; see `rules.rs` for `y = 0`.
@@ -241,7 +279,11 @@ pub(crate) fn atan2<const A: bool>(w: Width, y: Interval, x: Interval) -> Interv
     let near_zero = |v: Interval| v.lo < least && v.hi > -least;
     if near_zero(x) || magnitude(x).hi > exp2i(w.quotient_exponent()) || (near_zero(y) && x.lo < 0.0) {
         let whole = Interval::new(-PI, PI);
-        return if A { Interval::unknown(Flags::INDETERMINATE) } else { outward::<A>(w, whole.lo, whole.hi).flagged(flags) };
+        return if A {
+            Interval::unknown(Flags::INDETERMINATE)
+        } else {
+            outward::<A>(w, whole.lo, whole.hi).flagged(flags)
+        };
     }
     let corners = [(y.lo, x.lo), (y.lo, x.hi), (y.hi, x.lo), (y.hi, x.hi)].map(|(y, x)| y.atan2(x));
     let lo = corners.into_iter().fold(f64::INFINITY, f64::min);
@@ -251,16 +293,20 @@ pub(crate) fn atan2<const A: bool>(w: Width, y: Interval, x: Interval) -> Interv
 
 /// The worse of an absolute error and `atan2(x, sqrt(1 - x * x))`.
 fn asin<const A: bool>(w: Width, a: Interval) -> Interval {
-    inverse_of::<A>(a, |lo, hi| within_absolute::<A>(w, lo.asin(), hi.asin(), asin_error(w)), |a| {
-        atan2::<A>(w, a, co_side::<A>(w, a))
-    })
+    inverse_of::<A>(
+        a,
+        |lo, hi| within_absolute::<A>(w, lo.asin(), hi.asin(), asin_error(w)),
+        |a| atan2::<A>(w, a, co_side::<A>(w, a)),
+    )
 }
 
 /// The worse of an absolute error and `atan2(sqrt(1 - x * x), x)`.
 fn acos<const A: bool>(w: Width, a: Interval) -> Interval {
-    inverse_of::<A>(a, |lo, hi| within_absolute::<A>(w, hi.acos(), lo.acos(), acos_error(w)), |a| {
-        atan2::<A>(w, co_side::<A>(w, a), a)
-    })
+    inverse_of::<A>(
+        a,
+        |lo, hi| within_absolute::<A>(w, hi.acos(), lo.acos(), acos_error(w)),
+        |a| atan2::<A>(w, co_side::<A>(w, a), a),
+    )
 }
 
 fn co_side<const A: bool>(w: Width, a: Interval) -> Interval {
@@ -275,25 +321,36 @@ fn inverse_of<const A: bool>(
     if a.lo < -1.0 || a.hi > 1.0 {
         return unbounded::<A>(Flags::NAN).flagged(a.flags);
     }
-    monotone::<A>(a, |lo, hi| absolute(lo, hi).hull(inherited(Interval::new(lo, hi))))
+    monotone::<A>(a, |lo, hi| {
+        absolute(lo, hi).hull(inherited(Interval::new(lo, hi)))
+    })
 }
 
 /// Inherited from `(exp(x) - exp(-x)) * 0.5`.
 fn sinh<const A: bool>(w: Width, a: Interval) -> Interval {
-    let (up, down) = (exponential::<A>(w, a, f64::exp), exponential::<A>(w, negate(a), f64::exp));
+    let (up, down) = (
+        exponential::<A>(w, a, f64::exp),
+        exponential::<A>(w, negate(a), f64::exp),
+    );
     multiply::<A>(w, subtract::<A>(w, up, down), Interval::point(0.5))
 }
 
 /// Inherited from `(exp(x) + exp(-x)) * 0.5`.
 fn cosh<const A: bool>(w: Width, a: Interval) -> Interval {
-    let (up, down) = (exponential::<A>(w, a, f64::exp), exponential::<A>(w, negate(a), f64::exp));
+    let (up, down) = (
+        exponential::<A>(w, a, f64::exp),
+        exponential::<A>(w, negate(a), f64::exp),
+    );
     multiply::<A>(w, add::<A>(w, up, down), Interval::point(0.5))
 }
 
 /// The worse of an absolute error and `sinh(x) / cosh(x)`.
 fn tanh<const A: bool>(w: Width, a: Interval) -> Interval {
     let inherited = divide::<A>(w, sinh::<A>(w, a), cosh::<A>(w, a));
-    monotone::<A>(a, |lo, hi| within_absolute::<A>(w, lo.tanh(), hi.tanh(), TANH_ERROR)).hull(inherited)
+    monotone::<A>(a, |lo, hi| {
+        within_absolute::<A>(w, lo.tanh(), hi.tanh(), TANH_ERROR)
+    })
+    .hull(inherited)
 }
 
 /// Inherited from `log(x + sqrt(x * x + 1))`.
@@ -321,7 +378,14 @@ pub(crate) fn exponential<const A: bool>(w: Width, a: Interval, f: fn(f64) -> f6
         let ulps = exp_ulps(w, magnitude(Interval::new(lo, hi)).hi.min(2000.0));
         let bounds = within_ulps::<A>(w, f(lo), f(hi), ulps);
         // An exponential is not negative, however wide its error.
-        Interval { lo: bounds.lo.max(if bounds.flags.is_none() { 0.0 } else { f64::NEG_INFINITY }), ..bounds }
+        Interval {
+            lo: bounds.lo.max(if bounds.flags.is_none() {
+                0.0
+            } else {
+                f64::NEG_INFINITY
+            }),
+            ..bounds
+        }
     })
 }
 
@@ -340,7 +404,12 @@ pub(crate) fn logarithm<const A: bool>(w: Width, a: Interval, f: fn(f64) -> f64)
             include(within_ulps::<A>(w, f(lo.max(2.0)), f(hi), LOG_ULPS));
         }
         if hi >= 0.5 && lo <= 2.0 {
-            include(within_absolute::<A>(w, f(lo.max(0.5)), f(hi.min(2.0)), log_error(w)));
+            include(within_absolute::<A>(
+                w,
+                f(lo.max(0.5)),
+                f(hi.min(2.0)),
+                log_error(w),
+            ));
         }
         bounds.unwrap_or(Interval::unknown(Flags::INDETERMINATE))
     })

@@ -21,12 +21,19 @@ pub(crate) fn whole(t: IntType) -> Bounds {
 /// Bounds of a mathematical result reduced into the type.
 fn wrapped(t: IntType, lo: i128, hi: i128) -> Bounds {
     let (a, b) = (t.wrap(lo), t.wrap(hi));
-    if hi - lo <= t.max() - t.min() && a <= b { (a, b) } else { whole(t) }
+    if hi - lo <= t.max() - t.min() && a <= b {
+        (a, b)
+    } else {
+        whole(t)
+    }
 }
 
 fn corners(f: impl Fn(i128, i128) -> i128, a: Bounds, b: Bounds) -> Bounds {
     let c = [f(a.0, b.0), f(a.0, b.1), f(a.1, b.0), f(a.1, b.1)];
-    (c.into_iter().fold(c[0], i128::min), c.into_iter().fold(c[0], i128::max))
+    (
+        c.into_iter().fold(c[0], i128::min),
+        c.into_iter().fold(c[0], i128::max),
+    )
 }
 
 fn union(a: Bounds, b: Bounds) -> Bounds {
@@ -45,7 +52,9 @@ pub(crate) fn unary(op: IntUnary, t: IntType, a: Bounds) -> Bounds {
         IntUnary::Not => (t.wrap(!a.1), t.wrap(!a.0)),
         IntUnary::Abs => absolute(t, a),
         IntUnary::Sign => (a.0.signum(), a.1.signum()),
-        IntUnary::CountOneBits | IntUnary::CountLeadingZeros | IntUnary::CountTrailingZeros => (0, i128::from(t.bits)),
+        IntUnary::CountOneBits | IntUnary::CountLeadingZeros | IntUnary::CountTrailingZeros => {
+            (0, i128::from(t.bits))
+        }
         IntUnary::FirstLeadingBit | IntUnary::FirstTrailingBit | IntUnary::ReverseBits => whole(t),
     }
 }
@@ -156,14 +165,26 @@ fn enumerate(op: IntBinary, t: IntType, a: Bounds, b: Bounds) -> Bounds {
 
 fn shift_left(t: IntType, a: Bounds, b: Bounds) -> Bounds {
     let most = i128::from(t.bits) - 1;
-    let (lo, hi) = if b.0 >= 0 && b.1 <= most { b } else if b.0 == b.1 { (b.0 & most, b.0 & most) } else { (0, most) };
+    let (lo, hi) = if b.0 >= 0 && b.1 <= most {
+        b
+    } else if b.0 == b.1 {
+        (b.0 & most, b.0 & most)
+    } else {
+        (0, most)
+    };
     let (l, h) = corners(|x, s| x << s, a, (lo, hi));
     wrapped(t, l, h)
 }
 
 fn shift_right(t: IntType, a: Bounds, b: Bounds) -> Bounds {
     let most = i128::from(t.bits) - 1;
-    let (lo, hi) = if b.0 >= 0 && b.1 <= most { b } else if b.0 == b.1 { (b.0 & most, b.0 & most) } else { (0, most) };
+    let (lo, hi) = if b.0 >= 0 && b.1 <= most {
+        b
+    } else if b.0 == b.1 {
+        (b.0 & most, b.0 & most)
+    } else {
+        (0, most)
+    };
     corners(|x, s| x >> s, a, (lo, hi))
 }
 

@@ -61,7 +61,11 @@ impl Flags {
 
 impl std::fmt::Debug for Flags {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let names = [(Self::INDETERMINATE, "indeterminate"), (Self::UNDECIDED, "undecided"), (Self::NAN, "nan")];
+        let names = [
+            (Self::INDETERMINATE, "indeterminate"),
+            (Self::UNDECIDED, "undecided"),
+            (Self::NAN, "nan"),
+        ];
         f.write_str("{")?;
         for (flag, name) in names.into_iter().filter(|(flag, _)| self.has(*flag)) {
             f.write_str(if flag == Self::INDETERMINATE { "" } else { " " })?;
@@ -86,7 +90,11 @@ impl Interval {
     /// The numbers `lo..=hi`.
     #[inline(always)]
     pub const fn new(lo: f64, hi: f64) -> Self {
-        Self { lo, hi, flags: Flags::NONE }
+        Self {
+            lo,
+            hi,
+            flags: Flags::NONE,
+        }
     }
 
     /// One number.
@@ -98,7 +106,11 @@ impl Interval {
     /// Anything, for the reason given.
     #[inline(always)]
     pub const fn unknown(flags: Flags) -> Self {
-        Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY, flags }
+        Self {
+            lo: f64::NEG_INFINITY,
+            hi: f64::INFINITY,
+            flags,
+        }
     }
 
     /// The range a caller declares, which must not be empty.
@@ -106,13 +118,21 @@ impl Interval {
     /// # Errors
     /// [`EmptyRange`](crate::Error::EmptyRange) when `lo > hi` or either is NaN.
     pub fn declared(lo: f64, hi: f64) -> crate::Result<Self> {
-        if lo <= hi { Ok(Self::new(lo, hi)) } else { Err(crate::Error::EmptyRange { lo, hi }) }
+        if lo <= hi {
+            Ok(Self::new(lo, hi))
+        } else {
+            Err(crate::Error::EmptyRange { lo, hi })
+        }
     }
 
     /// Whether a machine may have returned `x`. An indeterminate or undecided value admits everything, NaN too.
     pub fn contains(&self, x: f64) -> bool {
         let open = self.flags.has(Flags::INDETERMINATE) || self.flags.has(Flags::UNDECIDED);
-        open || if x.is_nan() { self.flags.has(Flags::NAN) } else { self.lo <= x && x <= self.hi }
+        open || if x.is_nan() {
+            self.flags.has(Flags::NAN)
+        } else {
+            self.lo <= x && x <= self.hi
+        }
     }
 
     /// The language leaves the value open.
@@ -145,7 +165,11 @@ impl Interval {
     /// The least interval that contains both.
     #[inline(always)]
     pub fn hull(self, other: Self) -> Self {
-        Self { lo: self.lo.min(other.lo), hi: self.hi.max(other.hi), flags: self.flags.union(other.flags) }
+        Self {
+            lo: self.lo.min(other.lo),
+            hi: self.hi.max(other.hi),
+            flags: self.flags.union(other.flags),
+        }
     }
 }
 
@@ -161,11 +185,19 @@ pub struct WideCell {
 impl WideCell {
     #[inline(always)]
     pub(crate) fn interval(self) -> Interval {
-        Interval { lo: f64::from_bits(self.lo), hi: f64::from_bits(self.hi), flags: self.flags }
+        Interval {
+            lo: f64::from_bits(self.lo),
+            hi: f64::from_bits(self.hi),
+            flags: self.flags,
+        }
     }
 
     #[inline(always)]
     pub(crate) fn from_interval(x: Interval) -> Self {
-        Self { lo: x.lo.to_bits(), hi: x.hi.to_bits(), flags: x.flags }
+        Self {
+            lo: x.lo.to_bits(),
+            hi: x.hi.to_bits(),
+            flags: x.flags,
+        }
     }
 }

@@ -57,7 +57,11 @@ pub(crate) const TANH_ERROR: f64 = 1.0e-5;
 /// What our own `f64` evaluation of a function may be off by: the platform's library promises less than one unit, two are taken.
 #[inline(always)]
 fn slop(x: f64) -> f64 {
-    if x == 0.0 || !x.is_finite() { 0.0 } else { x.abs() * (4.0 * f64::EPSILON) + f64::MIN_POSITIVE * f64::EPSILON }
+    if x == 0.0 || !x.is_finite() {
+        0.0
+    } else {
+        x.abs() * (4.0 * f64::EPSILON) + f64::MIN_POSITIVE * f64::EPSILON
+    }
 }
 
 /// All values within `ulps` units in the last place of a real number in `[lo, hi]`, rounded outward.
@@ -83,7 +87,11 @@ fn lower_by_ulps(w: Width, lo: f64, hi: f64, ulps: f64) -> f64 {
         return at_lo;
     }
     let power = exp2i(exponent_of(lo) + 1);
-    if power >= hi { at_lo } else { at_lo.min(power - ulps * 2.0 * w.ulp(power)) }
+    if power >= hi {
+        at_lo
+    } else {
+        at_lo.min(power - ulps * 2.0 * w.ulp(power))
+    }
 }
 
 /// All values within an absolute error of a real number in `[lo, hi]`, rounded outward.

@@ -45,7 +45,10 @@ fn windows<D: Domain, T: Send>(
         let end = (at + window).min(batches);
         let results: Vec<BatchResult<D, T>> = {
             let context = context(program, limits, &prepared.memory, prepared);
-            (at..end).into_par_iter().map(|batch| run(&context, batch)).collect::<Result<_>>()?
+            (at..end)
+                .into_par_iter()
+                .map(|batch| run(&context, batch))
+                .collect::<Result<_>>()?
         };
         for result in results {
             prepared.memory.commit(result.pages);
@@ -57,8 +60,19 @@ fn windows<D: Domain, T: Send>(
     Ok((values, counters))
 }
 
-fn context<'a, D: Domain>(program: &'a Program, limits: &'a Limits, memory: &'a Memory<D>, prepared: &'a Prepared<D>) -> Context<'a, D> {
-    Context { program, limits, memory, textures: &prepared.textures, samplers: &prepared.samplers }
+fn context<'a, D: Domain>(
+    program: &'a Program,
+    limits: &'a Limits,
+    memory: &'a Memory<D>,
+    prepared: &'a Prepared<D>,
+) -> Context<'a, D> {
+    Context {
+        program,
+        limits,
+        memory,
+        textures: &prepared.textures,
+        samplers: &prepared.samplers,
+    }
 }
 
 fn has_atomics(program: &Program) -> bool {
@@ -68,14 +82,21 @@ fn has_atomics(program: &Program) -> bool {
             Node::If { accept, reject, .. } => any(accept) || any(reject),
             Node::Switch { cases, .. } => cases.iter().any(|c| any(&c.body)),
             Node::Loop(l) => any(&l.body) || any(&l.continuing),
-            Node::Break | Node::Continue | Node::Return | Node::Kill | Node::Barrier | Node::Call { .. } => false,
+            Node::Break | Node::Continue | Node::Return | Node::Kill | Node::Barrier | Node::Call { .. } => {
+                false
+            }
         })
     }
     program.code.functions.iter().any(|f| any(&f.body))
 }
 
 /// Checks that the register files fit, and gives the number of lanes of a batch.
-fn lanes_of_batch<D: Domain>(program: &Program, limits: &Limits, wanted: usize, needed: bool) -> Result<usize> {
+fn lanes_of_batch<D: Domain>(
+    program: &Program,
+    limits: &Limits,
+    wanted: usize,
+    needed: bool,
+) -> Result<usize> {
     let threads = rayon::current_num_threads().max(1);
     let column = (program.code.kinds.len() * size_of::<D::Cell>() * if D::UNCERTAIN { 2 } else { 1 }).max(1);
     let room = usize::try_from(limits.memory).unwrap_or(usize::MAX) / 2 / threads / column;
@@ -84,13 +105,25 @@ fn lanes_of_batch<D: Domain>(program: &Program, limits: &Limits, wanted: usize, 
     }
     if needed || room < 4 {
         let bytes = (column * wanted * threads) as u64 * 2;
-        let what = format!("{wanted} invocations of {} values each run together", program.code.kinds.len());
-        return Err(Error::Memory { needed: bytes, limit: limits.memory, what });
+        let what = format!(
+            "{wanted} invocations of {} values each run together",
+            program.code.kinds.len()
+        );
+        return Err(Error::Memory {
+            needed: bytes,
+            limit: limits.memory,
+            what,
+        });
     }
     Ok(room / 4 * 4)
 }
 
-pub(super) fn compute<D: Domain>(program: &Program, prepared: &mut Prepared<D>, groups: [u32; 3], limits: &Limits) -> Result<Counters> {
+pub(super) fn compute<D: Domain>(
+    program: &Program,
+    prepared: &mut Prepared<D>,
+    groups: [u32; 3],
+    limits: &Limits,
+) -> Result<Counters> {
     let size = program.workgroup_size.map(|n| n.max(1) as usize);
     let group: usize = size.iter().product();
     let count: usize = groups.iter().map(|&n| n as usize).product();
@@ -104,14 +137,26 @@ pub(super) fn compute<D: Domain>(program: &Program, prepared: &mut Prepared<D>, 
         }
         machine.run()?;
         let (pages, counters) = machine.finish();
-        Ok(BatchResult { pages, counters, value: () })
+        Ok(BatchResult {
+            pages,
+            counters,
+            value: (),
+        })
     })?;
     Ok(counters)
 }
 
 /// Fills a built-in input of all invocations of one workgroup.
-fn set_compute_input<D: Domain>(machine: &mut Machine<'_, D>, port: &Port, id: [usize; 3], size: [usize; 3], groups: [u32; 3]) {
-    let Binding::BuiltIn(builtin) = port.binding else { return };
+fn set_compute_input<D: Domain>(
+    machine: &mut Machine<'_, D>,
+    port: &Port,
+    id: [usize; 3],
+    size: [usize; 3],
+    groups: [u32; 3],
+) {
+    let Binding::BuiltIn(builtin) = port.binding else {
+        return;
+    };
     let group: usize = size.iter().product();
     for lane in 0..group {
         let local = [lane % size[0], lane / size[0] % size[1], lane / size[0] / size[1]];
@@ -148,7 +193,10 @@ pub(super) fn stage<D: Domain>(
         let range = index * lanes..((index + 1) * lanes).min(inputs.count);
         stage_batch(context, &columns, range)
     })?;
-    let mut outputs = StageOutputs { columns: BTreeMap::new(), discarded: Vec::with_capacity(inputs.count) };
+    let mut outputs = StageOutputs {
+        columns: BTreeMap::new(),
+        discarded: Vec::with_capacity(inputs.count),
+    };
     let mut columns: Vec<Vec<Scalar<D>>> = vec![Vec::new(); program.outputs.len()];
     for part in parts {
         outputs.discarded.extend(part.discarded);
@@ -158,7 +206,13 @@ pub(super) fn stage<D: Domain>(
     }
     for (port, values) in program.outputs.iter().zip(columns) {
         let slot = slot_of(&port.binding).ok_or_else(|| unsupported_port("output", &port.binding))?;
-        outputs.columns.insert(slot, Column { components: port.rows.len(), values });
+        outputs.columns.insert(
+            slot,
+            Column {
+                components: port.rows.len(),
+                values,
+            },
+        );
     }
     Ok((outputs, counters))
 }
@@ -183,12 +237,17 @@ fn stage_batch<D: Domain>(
     machine.run()?;
     let column = |port: &Port| {
         let each = (0..n as u32).flat_map(|lane| port.rows.iter().map(move |&row| (row, lane)));
-        each.map(|(row, lane)| Scalar::from_cell(machine.kind(row), machine.get(row, lane))).collect()
+        each.map(|(row, lane)| Scalar::from_cell(machine.kind(row), machine.get(row, lane)))
+            .collect()
     };
     let columns = program.outputs.iter().map(column).collect();
     let discarded = (0..n as u32).map(|lane| machine.discarded(lane)).collect();
     let (pages, counters) = machine.finish();
-    Ok(BatchResult { pages, counters, value: StagePart { columns, discarded } })
+    Ok(BatchResult {
+        pages,
+        counters,
+        value: StagePart { columns, discarded },
+    })
 }
 
 fn set_stage_input<D: Domain>(
@@ -201,7 +260,9 @@ fn set_stage_input<D: Domain>(
         for (k, &row) in port.rows.iter().enumerate() {
             let kind = machine.kind(row);
             let cell = match column {
-                Some(column) => column.of(invocation)[k].to_cell(kind).ok_or_else(|| wrong_kind(port, kind))?,
+                Some(column) => column.of(invocation)[k]
+                    .to_cell(kind)
+                    .ok_or_else(|| wrong_kind(port, kind))?,
                 None => default_input::<D>(&port.binding, kind),
             };
             machine.set(row, lane, cell);
@@ -211,7 +272,10 @@ fn set_stage_input<D: Domain>(
 }
 
 fn wrong_kind(port: &Port, kind: Kind) -> Error {
-    Error::Input { input: name_of(&port.binding), reason: format!("a value of another kind than {kind:?}, or out of its range") }
+    Error::Input {
+        input: name_of(&port.binding),
+        reason: format!("a value of another kind than {kind:?}, or out of its range"),
+    }
 }
 
 /// What built-ins are when the caller says nothing: the front of the first instance, everything covered.
@@ -239,10 +303,16 @@ fn may_be_absent(slot: Slot) -> bool {
     }
 }
 
-fn input_columns<'a, D: Domain>(program: &Program, inputs: &'a StageInputs<D>) -> Result<Vec<Option<&'a Column<D>>>> {
+fn input_columns<'a, D: Domain>(
+    program: &Program,
+    inputs: &'a StageInputs<D>,
+) -> Result<Vec<Option<&'a Column<D>>>> {
     let mut columns = Vec::with_capacity(program.inputs.len());
     for port in &program.inputs {
-        let wrong = |reason: String| Error::Input { input: name_of(&port.binding), reason };
+        let wrong = |reason: String| Error::Input {
+            input: name_of(&port.binding),
+            reason,
+        };
         let slot = slot_of(&port.binding).ok_or_else(|| unsupported_port("input", &port.binding))?;
         let column = inputs.columns.get(&slot);
         match column {
@@ -250,7 +320,11 @@ fn input_columns<'a, D: Domain>(program: &Program, inputs: &'a StageInputs<D>) -
             None => return Err(wrong("has no values; set it in the stage inputs".into())),
             Some(c) if c.components < port.rows.len() || c.values.len() != c.components * inputs.count => {
                 let (need, have) = (port.rows.len(), c.components);
-                let reason = format!("needs {need} scalars for each of {} invocations; {} were given, {have} each", inputs.count, c.values.len());
+                let reason = format!(
+                    "needs {need} scalars for each of {} invocations; {} were given, {have} each",
+                    inputs.count,
+                    c.values.len()
+                );
                 return Err(wrong(reason));
             }
             Some(_) => {}
@@ -261,7 +335,10 @@ fn input_columns<'a, D: Domain>(program: &Program, inputs: &'a StageInputs<D>) -
 }
 
 fn unsupported_port(what: &str, binding: &Binding) -> Error {
-    Error::Unsupported { what: format!("the {what} {}", name_of(binding)), span: naga::Span::UNDEFINED }
+    Error::Unsupported {
+        what: format!("the {what} {}", name_of(binding)),
+        span: naga::Span::UNDEFINED,
+    }
 }
 
 fn name_of(binding: &Binding) -> String {
@@ -273,7 +350,9 @@ fn name_of(binding: &Binding) -> String {
 
 fn slot_of(binding: &Binding) -> Option<Slot> {
     match binding {
-        Binding::Location { location, blend_src, .. } => Some(Slot::Location(*location, blend_src.unwrap_or(0))),
+        Binding::Location {
+            location, blend_src, ..
+        } => Some(Slot::Location(*location, blend_src.unwrap_or(0))),
         Binding::BuiltIn(BuiltIn::Position { .. }) => Some(Slot::Position),
         Binding::BuiltIn(BuiltIn::VertexIndex) => Some(Slot::VertexIndex),
         Binding::BuiltIn(BuiltIn::InstanceIndex) => Some(Slot::InstanceIndex),

@@ -7,12 +7,36 @@ use super::Bounds;
 
 /// The axis and the sign of the major direction of each face, and the axes and signs of its s and t coordinates.
 const FACES: [Face; 6] = [
-    Face { major: (0, 1.0), s: (2, -1.0), t: (1, -1.0) },
-    Face { major: (0, -1.0), s: (2, 1.0), t: (1, -1.0) },
-    Face { major: (1, 1.0), s: (0, 1.0), t: (2, 1.0) },
-    Face { major: (1, -1.0), s: (0, 1.0), t: (2, -1.0) },
-    Face { major: (2, 1.0), s: (0, 1.0), t: (1, -1.0) },
-    Face { major: (2, -1.0), s: (0, -1.0), t: (1, -1.0) },
+    Face {
+        major: (0, 1.0),
+        s: (2, -1.0),
+        t: (1, -1.0),
+    },
+    Face {
+        major: (0, -1.0),
+        s: (2, 1.0),
+        t: (1, -1.0),
+    },
+    Face {
+        major: (1, 1.0),
+        s: (0, 1.0),
+        t: (2, 1.0),
+    },
+    Face {
+        major: (1, -1.0),
+        s: (0, 1.0),
+        t: (2, -1.0),
+    },
+    Face {
+        major: (2, 1.0),
+        s: (0, 1.0),
+        t: (1, -1.0),
+    },
+    Face {
+        major: (2, -1.0),
+        s: (0, -1.0),
+        t: (1, -1.0),
+    },
 ];
 
 struct Face {
@@ -29,13 +53,21 @@ pub(crate) fn faces(direction: [Bounds; 3], uncertain: bool) -> Vec<OnFace> {
     if !uncertain {
         return vec![point_face(direction.map(|b| b.0))];
     }
-    (0..6u32).filter_map(|face| bounded_face(face, direction)).collect()
+    (0..6u32)
+        .filter_map(|face| bounded_face(face, direction))
+        .collect()
 }
 
 /// The face of one direction; on a tie z goes before y, and y before x.
 fn point_face(d: [f64; 3]) -> OnFace {
     let a = d.map(f64::abs);
-    let axis = if a[2] >= a[0] && a[2] >= a[1] { 2 } else if a[1] >= a[0] { 1 } else { 0 };
+    let axis = if a[2] >= a[0] && a[2] >= a[1] {
+        2
+    } else if a[1] >= a[0] {
+        1
+    } else {
+        0
+    };
     let face = 2 * axis as u32 + u32::from(d[axis] < 0.0);
     let f = &FACES[face as usize];
     let on = |(k, sign): (usize, f64)| 0.5 * (sign * d[k] / a[axis] + 1.0);
@@ -46,7 +78,13 @@ fn point_face(d: [f64; 3]) -> OnFace {
 fn bounded_face(face: u32, d: [Bounds; 3]) -> Option<OnFace> {
     let f = &FACES[face as usize];
     let along = |(k, sign): (usize, f64)| if sign > 0.0 { d[k] } else { (-d[k].1, -d[k].0) };
-    let least = |b: Bounds| if b.0 <= 0.0 && b.1 >= 0.0 { 0.0 } else { b.0.abs().min(b.1.abs()) };
+    let least = |b: Bounds| {
+        if b.0 <= 0.0 && b.1 >= 0.0 {
+            0.0
+        } else {
+            b.0.abs().min(b.1.abs())
+        }
+    };
     let (major, s, t) = (along(f.major), along(f.s), along(f.t));
     let floor = least(s).max(least(t)).max(major.0).max(0.0);
     if major.1 < floor || major.1 <= 0.0 {
@@ -69,7 +107,11 @@ pub(crate) fn across(face: u32, i: i64, j: i64, n: u32) -> Vec<(u32, u32, u32)> 
         (true, true) => vec![(face, i as u32, j as u32)],
         (false, false) => {
             let (ci, cj) = (i.clamp(0, i64::from(n) - 1), j.clamp(0, i64::from(n) - 1));
-            vec![(face, ci as u32, cj as u32), beyond(face, i, cj, n), beyond(face, ci, j, n)]
+            vec![
+                (face, ci as u32, cj as u32),
+                beyond(face, i, cj, n),
+                beyond(face, ci, j, n),
+            ]
         }
         (true, false) | (false, true) => vec![beyond(face, i, j, n)],
     }
@@ -98,9 +140,16 @@ mod tests {
 
     #[test]
     fn axes_hit_the_centres_of_their_faces() {
-        for (face, d) in [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]
-            .into_iter()
-            .enumerate()
+        for (face, d) in [
+            [1.0, 0.0, 0.0],
+            [-1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [0.0, 0.0, -1.0],
+        ]
+        .into_iter()
+        .enumerate()
         {
             assert_eq!(exact(d), (face as u32, [(0.5, 0.5); 2]));
         }
@@ -117,7 +166,10 @@ mod tests {
                 let at = |b: Bounds, k: i32| b.0 + (b.1 - b.0) * f64::from(k) / 20.0;
                 let (face, [s, t]) = exact([at(d[0], k), at(d[1], l), at(d[2], 20 - k)]);
                 let inside = |b: Bounds, x: f64| b.0 - 1e-12 <= x && x <= b.1 + 1e-12;
-                assert!(list.iter().any(|(f, [bs, bt])| *f == face && inside(*bs, s.0) && inside(*bt, t.0)));
+                assert!(
+                    list.iter()
+                        .any(|(f, [bs, bt])| *f == face && inside(*bs, s.0) && inside(*bt, t.0))
+                );
             }
         }
     }

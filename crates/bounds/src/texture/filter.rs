@@ -8,8 +8,11 @@ use super::{AddressMode, Bounds, Filter, SUBTEXEL};
 
 /// The texels one coordinate may select along one axis.
 pub(crate) struct Axis {
-    /// Index of the lower texel and bounds of the upper one's weight.
-    pub(crate) cells: Vec<(i64, Bounds)>,
+    first: i64,
+    last: i64,
+    /// Bounds of the coordinate in texels, and whether the texel above a cell has a weight.
+    at: Bounds,
+    linear: bool,
 }
 
 /// A coordinate that may be anything, or too many texels.
@@ -18,35 +21,78 @@ pub(crate) struct TooWide;
 /// How far the coordinate that hardware uses may be from the real one, in texels: its sub-texel bits, and the rounding of
 /// `u * size` in `f32` where coordinates are large.
 fn slack(uncertain: bool, x: f64) -> f64 {
-    if uncertain { SUBTEXEL + x.abs() * f64::from(f32::EPSILON) } else { 0.0 }
+    if uncertain {
+        SUBTEXEL + x.abs() * f64::from(f32::EPSILON)
+    } else {
+        0.0
+    }
 }
 
 impl Axis {
     /// The cells of a normalised coordinate on an axis of `n` texels.
-    pub(crate) fn new(u: Bounds, n: u32, offset: i64, filter: Filter, uncertain: bool, limit: u32) -> Result<Self, TooWide> {
+    pub(crate) fn new(
+        u: Bounds,
+        n: u32,
+        offset: i64,
+        filter: Filter,
+        uncertain: bool,
+        limit: u32,
+    ) -> Result<Self, TooWide> {
         let shift = offset as f64 - if filter == Filter::Linear { 0.5 } else { 0.0 };
         let (lo, hi) = (u.0 * f64::from(n), u.1 * f64::from(n));
-        let (lo, hi) = (lo + shift - slack(uncertain, lo), hi + shift + slack(uncertain, hi));
+        let (lo, hi) = (
+            lo + shift - slack(uncertain, lo),
+            hi + shift + slack(uncertain, hi),
+        );
         if !(lo.abs() < 1e15 && hi.abs() < 1e15) || hi - lo > f64::from(limit) {
             return Err(TooWide);
         }
-        let (first, last) = (lo.floor() as i64, hi.floor() as i64);
-        let weight = |cell: i64| match filter {
-            Filter::Nearest => (0.0, 0.0),
-            Filter::Linear => ((lo - cell as f64).clamp(0.0, 1.0), (hi - cell as f64).clamp(0.0, 1.0)),
+        Ok(Self {
+            first: lo.floor() as i64,
+            last: hi.floor() as i64,
+            at: (lo, hi),
+            linear: filter == Filter::Linear,
+        })
+    }
+
+    /// How many cells there are.
+    pub(crate) fn len(&self) -> usize {
+        (self.last - self.first + 1) as usize
+    }
+
+    /// Index of the lower texel and bounds of the upper one's weight, cell by cell.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = (i64, Bounds)> + use<> {
+        let ((lo, hi), linear) = (self.at, self.linear);
+        let weight = move |cell: i64| {
+            if linear {
+                (
+                    (lo - cell as f64).clamp(0.0, 1.0),
+                    (hi - cell as f64).clamp(0.0, 1.0),
+                )
+            } else {
+                (0.0, 0.0)
+            }
         };
-        Ok(Self { cells: (first..=last).map(|cell| (cell, weight(cell))).collect() })
+        (self.first..=self.last).map(move |cell| (cell, weight(cell)))
     }
 
     /// The one cell of an axis that the texture does not have.
     pub(crate) fn flat() -> Self {
-        Self { cells: vec![(0, (0.0, 0.0))] }
+        Self {
+            first: 0,
+            last: 0,
+            at: (0.0, 0.0),
+            linear: false,
+        }
     }
 }
 
 /// The texel that an index outside of `0..n` stands for; `None` is the border.
 pub(crate) fn address(mode: AddressMode, i: i64, n: u32) -> Option<u32> {
     let n = i64::from(n);
+    if (0..n).contains(&i) {
+        return Some(i as u32);
+    }
     let inside = match mode {
         AddressMode::ClampToEdge => i.clamp(0, n - 1),
         AddressMode::Repeat => i.rem_euclid(n),
@@ -54,12 +100,7 @@ pub(crate) fn address(mode: AddressMode, i: i64, n: u32) -> Option<u32> {
             let k = i.rem_euclid(2 * n);
             if k < n { k } else { 2 * n - 1 - k }
         }
-        AddressMode::ClampToBorder => {
-            if i < 0 || i >= n {
-                return None;
-            }
-            i
-        }
+        AddressMode::ClampToBorder => return None,
     };
     Some(inside as u32)
 }
@@ -70,11 +111,15 @@ pub(crate) fn hull(a: [Bounds; 4], b: [Bounds; 4]) -> [Bounds; 4] {
 }
 
 /// The weighted mean over all cells of three axes; `texel` gives the bounds of a texel's channels.
-pub(crate) fn filtered(axes: &[Axis; 3], uncertain: bool, texel: &mut impl FnMut([i64; 3]) -> [Bounds; 4]) -> [Bounds; 4] {
+pub(crate) fn filtered(
+    axes: &[Axis; 3],
+    uncertain: bool,
+    texel: &mut impl FnMut([i64; 3]) -> [Bounds; 4],
+) -> [Bounds; 4] {
     let mut total: Option<[Bounds; 4]> = None;
-    for &(z, wz) in &axes[2].cells {
-        for &(y, wy) in &axes[1].cells {
-            for &(x, wx) in &axes[0].cells {
+    for (z, wz) in axes[2].cells() {
+        for (y, wy) in axes[1].cells() {
+            for (x, wx) in axes[0].cells() {
                 let cell = cell_mean([x, y, z], [wx, wy, wz], uncertain, texel);
                 total = Some(total.map_or(cell, |t| hull(t, cell)));
             }
@@ -108,20 +153,36 @@ fn along(
     weights: &[Bounds; 3],
     texel: &mut impl FnMut([i64; 3]) -> [Bounds; 4],
 ) -> [Bounds; 4] {
-    let lower = if axis == 0 { texel(base) } else { along(axis - 1, base, weights, texel) };
+    let lower = if axis == 0 {
+        texel(base)
+    } else {
+        along(axis - 1, base, weights, texel)
+    };
     let (least, most) = weights[axis];
     if most == 0.0 {
         return lower;
     }
     let mut next = base;
     next[axis] += 1;
-    let upper = if axis == 0 { texel(next) } else { along(axis - 1, next, weights, texel) };
+    let upper = if axis == 0 {
+        texel(next)
+    } else {
+        along(axis - 1, next, weights, texel)
+    };
     std::array::from_fn(|c| lerp(lower[c], upper[c], (least, most)))
 }
 
 /// Bounds of `a + (b - a) * t`.
 pub(crate) fn lerp(a: Bounds, b: Bounds, t: Bounds) -> Bounds {
-    let at = |x: f64, y: f64, t: f64| if t == 0.0 { x } else if t == 1.0 { y } else { x + (y - x) * t };
+    let at = |x: f64, y: f64, t: f64| {
+        if t == 0.0 {
+            x
+        } else if t == 1.0 {
+            y
+        } else {
+            x + (y - x) * t
+        }
+    };
     let lo = at(a.0, b.0, t.0).min(at(a.0, b.0, t.1));
     let hi = at(a.1, b.1, t.0).max(at(a.1, b.1, t.1));
     (lo, hi)
@@ -135,9 +196,18 @@ mod tests {
     fn address_modes_agree_with_their_definitions() {
         let list = |mode| (-5..9).map(|i| address(mode, i, 4)).collect::<Vec<_>>();
         let some = |v: &[u32]| v.iter().map(|&x| Some(x)).collect::<Vec<_>>();
-        assert_eq!(list(AddressMode::ClampToEdge), some(&[0, 0, 0, 0, 0, 0, 1, 2, 3, 3, 3, 3, 3, 3]));
-        assert_eq!(list(AddressMode::Repeat), some(&[3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0]));
-        assert_eq!(list(AddressMode::MirrorRepeat), some(&[3, 3, 2, 1, 0, 0, 1, 2, 3, 3, 2, 1, 0, 0]));
+        assert_eq!(
+            list(AddressMode::ClampToEdge),
+            some(&[0, 0, 0, 0, 0, 0, 1, 2, 3, 3, 3, 3, 3, 3])
+        );
+        assert_eq!(
+            list(AddressMode::Repeat),
+            some(&[3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0])
+        );
+        assert_eq!(
+            list(AddressMode::MirrorRepeat),
+            some(&[3, 3, 2, 1, 0, 0, 1, 2, 3, 3, 2, 1, 0, 0])
+        );
         assert_eq!(address(AddressMode::ClampToBorder, -1, 4), None);
     }
 

@@ -114,7 +114,10 @@ impl TexelFormat {
 
     /// Whether the stored value is exact only up to the rounding of a conversion.
     pub(crate) fn is_normalised(self) -> bool {
-        matches!(self.encoding(), Encoding::Unorm(_) | Encoding::Snorm(_) | Encoding::Rgb10a2 { normalised: true })
+        matches!(
+            self.encoding(),
+            Encoding::Unorm(_) | Encoding::Snorm(_) | Encoding::Rgb10a2 { normalised: true }
+        )
     }
 
     /// The format of a storage texture.
@@ -168,7 +171,10 @@ impl TexelFormat {
     pub(crate) fn kind(self) -> Kind {
         match self.encoding() {
             Encoding::Int(t) if t.bits == 64 => Kind::Int(t),
-            Encoding::Int(t) => Kind::Int(IntType { signed: t.signed, bits: 32 }),
+            Encoding::Int(t) => Kind::Int(IntType {
+                signed: t.signed,
+                bits: 32,
+            }),
             Encoding::Rgb10a2 { normalised: false } => Kind::Int(IntType::U32),
             Encoding::Unorm(_)
             | Encoding::Snorm(_)
@@ -192,7 +198,11 @@ fn decode_channel(encoding: Encoding, bits: u64) -> f64 {
     match encoding {
         Encoding::Unorm(n) => bits as f64 / ((1u64 << n) - 1) as f64,
         Encoding::Snorm(n) => {
-            let x = IntType { signed: true, bits: n }.wrap(i128::from(bits));
+            let x = IntType {
+                signed: true,
+                bits: n,
+            }
+            .wrap(i128::from(bits));
             (x as f64 / ((1u64 << (n - 1)) - 1) as f64).max(-1.0)
         }
         Encoding::Float(w) => float_from_bits(w, bits),
@@ -203,13 +213,27 @@ fn decode_channel(encoding: Encoding, bits: u64) -> f64 {
 
 fn rgb10a2(word: u64, normalised: bool) -> [f64; 4] {
     let parts = [word & 1023, word >> 10 & 1023, word >> 20 & 1023, word >> 30 & 3].map(|x| x as f64);
-    if normalised { [parts[0] / 1023.0, parts[1] / 1023.0, parts[2] / 1023.0, parts[3] / 3.0] } else { parts }
+    if normalised {
+        [
+            parts[0] / 1023.0,
+            parts[1] / 1023.0,
+            parts[2] / 1023.0,
+            parts[3] / 3.0,
+        ]
+    } else {
+        parts
+    }
 }
 
 /// Unsigned floats of 11 and 10 bits are halves without sign and with a shorter significand.
 fn rg11b10(word: u64) -> [f64; 4] {
     let half = |bits: u64| float_from_bits(Width::F16, bits);
-    [half((word & 0x7ff) << 4), half((word >> 11 & 0x7ff) << 4), half((word >> 22 & 0x3ff) << 5), 1.0]
+    [
+        half((word & 0x7ff) << 4),
+        half((word >> 11 & 0x7ff) << 4),
+        half((word >> 22 & 0x3ff) << 5),
+        1.0,
+    ]
 }
 
 fn small_float(x: f64, significand_bits: u32) -> f64 {
@@ -239,16 +263,27 @@ mod tests {
     fn decoding_fills_missing_channels() {
         assert_eq!(TexelFormat::Rg8Unorm.decode(&[255, 0]), [1.0, 0.0, 0.0, 1.0]);
         assert_eq!(TexelFormat::R8Snorm.decode(&[0x80])[0], -1.0);
-        assert_eq!(TexelFormat::Bgra8Unorm.decode(&[255, 0, 0, 255]), [0.0, 0.0, 1.0, 1.0]);
+        assert_eq!(
+            TexelFormat::Bgra8Unorm.decode(&[255, 0, 0, 255]),
+            [0.0, 0.0, 1.0, 1.0]
+        );
         assert_eq!(TexelFormat::R16Float.decode(&0x3c00u16.to_le_bytes())[0], 1.0);
-        assert_eq!(TexelFormat::Rgb10a2Uint.decode(&0xffff_ffffu32.to_le_bytes()), [1023.0, 1023.0, 1023.0, 3.0]);
+        assert_eq!(
+            TexelFormat::Rgb10a2Uint.decode(&0xffff_ffffu32.to_le_bytes()),
+            [1023.0, 1023.0, 1023.0, 3.0]
+        );
         assert_eq!(TexelFormat::R32Sint.decode(&(-5i32).to_le_bytes())[0], -5.0);
     }
 
     #[test]
     fn quantizing_is_idempotent() {
         for x in [0.0, 0.1, 0.5, 0.999, 1.0] {
-            for f in [TexelFormat::Rgba8Unorm, TexelFormat::Rgba8Snorm, TexelFormat::Rgba16Float, TexelFormat::Rg11b10Ufloat] {
+            for f in [
+                TexelFormat::Rgba8Unorm,
+                TexelFormat::Rgba8Snorm,
+                TexelFormat::Rgba16Float,
+                TexelFormat::Rg11b10Ufloat,
+            ] {
                 let q = f.quantize(0, x);
                 assert_eq!(f.quantize(0, q), q, "{f:?} {x}");
             }

@@ -15,7 +15,16 @@ pub(crate) fn from_gradients(dx: &[Bounds], dy: &[Bounds], uncertain: bool) -> B
         let level = length(dx).max(length(dy)).log2();
         return (level, level);
     }
-    let magnitude = |b: &Bounds| (if b.0 <= 0.0 && b.1 >= 0.0 { 0.0 } else { b.0.abs().min(b.1.abs()) }, b.0.abs().max(b.1.abs()));
+    let magnitude = |b: &Bounds| {
+        (
+            if b.0 <= 0.0 && b.1 >= 0.0 {
+                0.0
+            } else {
+                b.0.abs().min(b.1.abs())
+            },
+            b.0.abs().max(b.1.abs()),
+        )
+    };
     let parts: Vec<Bounds> = dx
         .iter()
         .zip(dy)
@@ -39,11 +48,20 @@ pub(crate) struct Tap {
 
 /// All taps whose hull covers a level of detail, which must not be NaN.
 pub(crate) fn taps(sampler: &Sampler, levels: usize, (lo, hi): Bounds) -> Vec<Tap> {
-    let clamp = |x: f64| x.clamp(f64::from(sampler.lod.0), f64::from(sampler.lod.1.max(sampler.lod.0)));
+    let clamp = |x: f64| {
+        x.clamp(
+            f64::from(sampler.lod.0),
+            f64::from(sampler.lod.1.max(sampler.lod.0)),
+        )
+    };
     let (lo, hi) = (clamp(lo), clamp(hi));
     let mut out = Vec::new();
     if lo <= 0.0 {
-        out.push(Tap { level: 0, weight: 0.0, filter: sampler.mag });
+        out.push(Tap {
+            level: 0,
+            weight: 0.0,
+            filter: sampler.mag,
+        });
     }
     if hi > 0.0 {
         minified(sampler, levels, (lo.max(0.0), hi), &mut out);
@@ -56,14 +74,22 @@ fn minified(sampler: &Sampler, levels: usize, (lo, hi): Bounds, out: &mut Vec<Ta
     match sampler.mip {
         Filter::Nearest => {
             let (a, b) = ((lo + 0.5).floor().min(last), (hi + 0.5).floor().min(last));
-            out.extend((a as usize..=b as usize).map(|level| Tap { level, weight: 0.0, filter: sampler.min }));
+            out.extend((a as usize..=b as usize).map(|level| Tap {
+                level,
+                weight: 0.0,
+                filter: sampler.min,
+            }));
         }
         Filter::Linear => {
             let (a, b) = (lo.min(last), hi.min(last));
             // Linear between neighbouring levels: the ends and the whole levels between give the hull.
             let whole = (a.ceil() as usize..=b.floor() as usize).map(|l| l as f64);
             for x in std::iter::once(a).chain(whole).chain(std::iter::once(b)) {
-                out.push(Tap { level: x.floor() as usize, weight: x.fract(), filter: sampler.min });
+                out.push(Tap {
+                    level: x.floor() as usize,
+                    weight: x.fract(),
+                    filter: sampler.min,
+                });
             }
             out.dedup();
         }
@@ -90,7 +116,14 @@ mod tests {
         let t = taps(&s, 4, (0.5, 2.25));
         let at: Vec<f64> = t.iter().map(|t| t.level as f64 + t.weight).collect();
         assert_eq!(at, [0.5, 1.0, 2.0, 2.25]);
-        assert_eq!(taps(&s, 4, (-3.0, -1.0)), [Tap { level: 0, weight: 0.0, filter: Filter::Linear }]);
+        assert_eq!(
+            taps(&s, 4, (-3.0, -1.0)),
+            [Tap {
+                level: 0,
+                weight: 0.0,
+                filter: Filter::Linear
+            }]
+        );
         assert_eq!(taps(&s, 4, (9.0, 9.0)).last().map(|t| t.level), Some(3));
     }
 }

@@ -49,9 +49,21 @@ pub(crate) struct Level {
     bounds: OnceLock<[Bounds; 4]>,
 }
 
+impl Level {
+    /// The texel with a number, of a texture of single floats.
+    fn f32_at(&self, at: usize) -> f64 {
+        let b = &self.bytes[4 * at..4 * at + 4];
+        f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+    }
+}
+
 impl Clone for Level {
     fn clone(&self) -> Self {
-        Self { size: self.size, bytes: self.bytes.clone(), bounds: OnceLock::new() }
+        Self {
+            size: self.size,
+            bytes: self.bytes.clone(),
+            bounds: OnceLock::new(),
+        }
     }
 }
 
@@ -71,8 +83,20 @@ impl Texture {
     ///
     /// # Errors
     /// [`Error::Texture`] when sizes and bytes do not fit each other.
-    pub fn new(dimension: Dimension, format: TexelFormat, size: [u32; 3], layers: u32, bytes: Vec<u8>) -> Result<Self> {
-        let texture = Self { dimension, format, layers, samples: 1, levels: Vec::new() };
+    pub fn new(
+        dimension: Dimension,
+        format: TexelFormat,
+        size: [u32; 3],
+        layers: u32,
+        bytes: Vec<u8>,
+    ) -> Result<Self> {
+        let texture = Self {
+            dimension,
+            format,
+            layers,
+            samples: 1,
+            levels: Vec::new(),
+        };
         texture.check(size)?;
         texture.with_level_of(size, bytes)
     }
@@ -94,9 +118,18 @@ impl Texture {
             1 => TexelFormat::R32Float,
             2 => TexelFormat::Rg32Float,
             4 => TexelFormat::Rgba32Float,
-            n => return Err(Error::Texture { reason: format!("{n} channels of floats; use 1, 2 or 4") }),
+            n => {
+                return Err(Error::Texture {
+                    reason: format!("{n} channels of floats; use 1, 2 or 4"),
+                });
+            }
         };
-        Self::d2(format, width, height, texels.iter().flat_map(|x| x.to_le_bytes()).collect())
+        Self::d2(
+            format,
+            width,
+            height,
+            texels.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        )
     }
 
     /// Adds the next mip level, which must be half the size of the last one, rounded down, but at least 1.
@@ -106,9 +139,15 @@ impl Texture {
     pub fn with_level(self, bytes: Vec<u8>) -> Result<Self> {
         let last = self.size(self.levels.len() - 1);
         if last == [1, 1, 1] {
-            return Err(Error::Texture { reason: "a mip level below 1 by 1".into() });
+            return Err(Error::Texture {
+                reason: "a mip level below 1 by 1".into(),
+            });
         }
-        let depth = if self.dimension == Dimension::D3 { (last[2] / 2).max(1) } else { last[2] };
+        let depth = if self.dimension == Dimension::D3 {
+            (last[2] / 2).max(1)
+        } else {
+            last[2]
+        };
         self.with_level_of([(last[0] / 2).max(1), (last[1] / 2).max(1), depth], bytes)
     }
 
@@ -118,7 +157,11 @@ impl Texture {
     /// [`Error::Texture`] unless the texture has that many layers and one level.
     pub fn multisampled(mut self, samples: u32) -> Result<Self> {
         if self.layers != samples || self.levels.len() != 1 || samples == 0 {
-            let reason = format!("{samples} samples need {samples} layers and one level, not {} and {}", self.layers, self.levels.len());
+            let reason = format!(
+                "{samples} samples need {samples} layers and one level, not {} and {}",
+                self.layers,
+                self.levels.len()
+            );
             return Err(Error::Texture { reason });
         }
         self.samples = samples;
@@ -129,10 +172,15 @@ impl Texture {
     fn check(&self, size: [u32; 3]) -> Result<()> {
         let bad = |reason: String| Err(Error::Texture { reason });
         if size.iter().any(|&n| n == 0 || n > MAX_SIDE) || self.layers == 0 || self.layers > MAX_SIDE {
-            return bad(format!("size {size:?} with {} layers; sides are 1 to {MAX_SIDE}", self.layers));
+            return bad(format!(
+                "size {size:?} with {} layers; sides are 1 to {MAX_SIDE}",
+                self.layers
+            ));
         }
         match self.dimension {
-            Dimension::D1 if size[1] != 1 || size[2] != 1 => bad("a 1D texture has height and depth 1".into()),
+            Dimension::D1 if size[1] != 1 || size[2] != 1 => {
+                bad("a 1D texture has height and depth 1".into())
+            }
             Dimension::D2 if size[2] != 1 => bad("a 2D texture has depth 1; layers are given apart".into()),
             Dimension::Cube if size[0] != size[1] || size[2] != 1 || self.layers % 6 != 0 => {
                 bad("a cube has square faces and a multiple of six layers".into())
@@ -145,10 +193,18 @@ impl Texture {
         let texels = size.iter().map(|&n| n as usize).product::<usize>() * self.layers as usize;
         let needed = texels * self.format.bytes();
         if bytes.len() != needed {
-            let reason = format!("level {} of size {size:?} needs {needed} bytes, not {}", self.levels.len(), bytes.len());
+            let reason = format!(
+                "level {} of size {size:?} needs {needed} bytes, not {}",
+                self.levels.len(),
+                bytes.len()
+            );
             return Err(Error::Texture { reason });
         }
-        self.levels.push(Level { size, bytes, bounds: OnceLock::new() });
+        self.levels.push(Level {
+            size,
+            bytes,
+            bounds: OnceLock::new(),
+        });
         Ok(self)
     }
 
@@ -174,7 +230,11 @@ impl Texture {
 
     /// Array layers; of cubes, the six faces count as one.
     pub fn layers(&self) -> u32 {
-        if self.dimension == Dimension::Cube { self.layers / 6 } else { self.layers }
+        if self.dimension == Dimension::Cube {
+            self.layers / 6
+        } else {
+            self.layers
+        }
     }
 
     /// Samples of a texel.
@@ -187,7 +247,15 @@ impl Texture {
         let level = &self.levels[level];
         let [w, h, d] = level.size.map(|n| n as usize);
         let at = ((layer as usize * d + z as usize) * h + y as usize) * w + x as usize;
-        self.format.decode(&level.bytes[at * self.format.bytes()..])
+        match self.format {
+            // The formats of most textures, without the detour through channels.
+            TexelFormat::R32Float => [level.f32_at(at), 0.0, 0.0, 1.0],
+            TexelFormat::Rgba8Unorm => {
+                let b = &level.bytes[4 * at..4 * at + 4];
+                std::array::from_fn(|c| f64::from(b[c]) / 255.0)
+            }
+            other => other.decode(&level.bytes[at * other.bytes()..]),
+        }
     }
 
     /// The least and greatest value of every channel in a level, with zero and one for texels outside.
@@ -276,16 +344,28 @@ impl Default for Sampler {
 impl Sampler {
     /// Linear filtering in all three places.
     pub fn linear(mode: AddressMode) -> Self {
-        Self { address: [mode; 3], mag: Filter::Linear, min: Filter::Linear, mip: Filter::Linear, ..Self::default() }
+        Self {
+            address: [mode; 3],
+            mag: Filter::Linear,
+            min: Filter::Linear,
+            mip: Filter::Linear,
+            ..Self::default()
+        }
     }
 
     /// Nearest texels.
     pub fn nearest(mode: AddressMode) -> Self {
-        Self { address: [mode; 3], ..Self::default() }
+        Self {
+            address: [mode; 3],
+            ..Self::default()
+        }
     }
 
     /// The same with a comparison.
     pub fn comparing(self, function: CompareFunction) -> Self {
-        Self { compare: Some(function), ..self }
+        Self {
+            compare: Some(function),
+            ..self
+        }
     }
 }

@@ -1,9 +1,7 @@
 //! Float arithmetic of the point domains, bit for bit, and of the acceptance intervals, by containment.
 
-
-
-use bossage_bounds::{Accept, F32, F64};
 use crate::common::probe;
+use bossage_bounds::{Accept, F32, F64};
 use proptest::prelude::*;
 
 fn bits(list: &[f64]) -> Vec<u32> {
@@ -64,5 +62,8 @@ fn control_flow_and_functions() {
 fn the_formula_in_f64_is_not_rounded_to_f32() {
     let got = probe::<F64>("o[i] = a[0] / a[1];", &[1.0, 3.0], 1);
     assert_eq!(got, [1.0 / 3.0]);
-    assert_eq!(bits(&probe::<F32>("o[i] = a[0] / a[1];", &[1.0, 3.0], 1)), [(1.0f32 / 3.0).to_bits()]);
+    assert_eq!(
+        bits(&probe::<F32>("o[i] = a[0] / a[1];", &[1.0, 3.0], 1)),
+        [(1.0f32 / 3.0).to_bits()]
+    );
 }

@@ -1,12 +1,12 @@
 //! Parsing and running WGSL in tests.
 
-
 use bossage_bounds::{Bindings, Domain, Limits, Outcome, Program, run_compute};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 /// Parses and validates a module; panics with the compiler's message otherwise.
 pub(crate) fn module(source: &str) -> (naga::Module, ModuleInfo) {
-    let module = naga::front::wgsl::parse_str(source).unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
+    let module =
+        naga::front::wgsl::parse_str(source).unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
     let info = Validator::new(ValidationFlags::all(), Capabilities::all())
         .validate(&module)
         .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
@@ -35,7 +35,9 @@ pub(crate) fn probe_source(body: &str) -> String {
 /// Runs such a probe, one output for each invocation.
 pub(crate) fn probe<D: Domain>(body: &str, inputs: &[f32], outputs: usize) -> Vec<D::Float> {
     let program = program(&probe_source(body));
-    bossage_bounds::run_probe::<D>(&program, inputs, outputs, outputs, &Limits::default()).unwrap_or_else(|e| panic!("{e}")).0
+    bossage_bounds::run_probe::<D>(&program, inputs, outputs, outputs, &Limits::default())
+        .unwrap_or_else(|e| panic!("{e}"))
+        .0
 }
 
 /// Dispatches one workgroup.
@@ -44,9 +46,14 @@ pub(crate) fn dispatch<D: Domain>(source: &str, bindings: Bindings<D>) -> (Bindi
 }
 
 /// Dispatches workgroups.
-pub(crate) fn dispatch_many<D: Domain>(source: &str, mut bindings: Bindings<D>, groups: [u32; 3]) -> (Bindings<D>, Outcome) {
+pub(crate) fn dispatch_many<D: Domain>(
+    source: &str,
+    mut bindings: Bindings<D>,
+    groups: [u32; 3],
+) -> (Bindings<D>, Outcome) {
     let program = program(source);
-    let outcome = run_compute(&program, &mut bindings, groups, &Limits::default()).unwrap_or_else(|e| panic!("{e}"));
+    let outcome =
+        run_compute(&program, &mut bindings, groups, &Limits::default()).unwrap_or_else(|e| panic!("{e}"));
     (bindings, outcome)
 }
 

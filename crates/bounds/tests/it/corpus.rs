@@ -1,7 +1,9 @@
 //! The corpus in the `f32` domain, against numbers worked out by hand or with Rust's own integers and floats.
 
 use crate::common::{dispatch, dispatch_many, program, source};
-use bossage_bounds::{Accept, Bindings, Error, F32, Limits, Program, Slot, StageInputs, run_compute, run_fragment, run_vertex};
+use bossage_bounds::{
+    Accept, Bindings, Error, F32, Limits, Program, Slot, StageInputs, run_compute, run_fragment, run_vertex,
+};
 use naga::back::PipelineConstants;
 
 fn bytes(words: &[u32]) -> Vec<u8> {
@@ -14,7 +16,9 @@ fn floats(list: &[f32]) -> Vec<u8> {
 
 fn values_bindings<D: bossage_bounds::Domain>() -> Bindings<D> {
     // mat4x4 with translation 10 in x; scale (0, 2); count 1; weights[1].z = 5.
-    let mut uniform = vec![1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 10.0, 0.0, 0.0, 1.0, 0.0, 2.0];
+    let mut uniform = vec![
+        1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 10.0, 0.0, 0.0, 1.0, 0.0, 2.0,
+    ];
     uniform.push(f32::from_bits(1));
     uniform.push(0.0);
     uniform.extend([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 5.0, 0.0]);
@@ -53,7 +57,10 @@ fn values() {
     assert_eq!(b.read_floats(0, 1).unwrap(), VALUES);
     let (b, _) = dispatch::<Accept>(&source("values"), values_bindings());
     for (k, (x, want)) in b.read_floats(0, 1).unwrap().iter().zip(VALUES).enumerate() {
-        assert!(x.contains(want) && !x.is_indeterminate(), "o[{k}] = {x:?}, want {want}");
+        assert!(
+            x.contains(want) && !x.is_indeterminate(),
+            "o[{k}] = {x:?}, want {want}"
+        );
     }
 }
 
@@ -106,7 +113,10 @@ fn integers() {
     let byte = |w: u32, k: u32| w >> (8 * k) & 255;
     let signed = |w: u32, k: u32| byte(w, k) as u8 as i8 as i32;
     let dots = (0..4).fold((0u32, 0i32), |d, k| {
-        (d.0.wrapping_add(byte(u, k) * byte(v, k)), d.1 + signed(u, k) * signed(v, k))
+        (
+            d.0.wrapping_add(byte(u, k) * byte(v, k)),
+            d.1 + signed(u, k) * signed(v, k),
+        )
     });
     let want: [u32; 32] = [
         (x + y) as u32 ^ (x - y) as u32,
@@ -165,9 +175,15 @@ fn shared() {
     let sums = [(0..64).sum::<i128>(), (64..128).sum::<i128>()];
     // Lane 0 runs first: it gets 0 from the exchange in the first workgroup and 63, the last lane's value, in the second; it
     // wins the comparison in the first workgroup only, and sees its own 1 in the second.
-    assert_eq!(b.read_ints(0, 1).unwrap(), [sums[0], sums[0], 7, 1, sums[1], sums[1], 8 + 63, 1]);
+    assert_eq!(
+        b.read_ints(0, 1).unwrap(),
+        [sums[0], sums[0], 7, 1, sums[1], sums[1], 8 + 63, 1]
+    );
     let xor = (0..64).fold(0, |x, k| x ^ k) * 0;
-    assert_eq!(b.read_ints(0, 2).unwrap(), [2 * sums[0], -128, 63, -63, 64, 63, xor, 63, 1]);
+    assert_eq!(
+        b.read_ints(0, 2).unwrap(),
+        [2 * sums[0], -128, 63, -63, 64, 63, xor, 63, 1]
+    );
     let (c, _) = dispatch_many(&source("shared"), make(), [2, 1, 1]);
     assert_eq!(b.buffers, c.buffers, "runs repeat");
 }
@@ -175,15 +191,27 @@ fn shared() {
 #[test]
 fn wide_types_and_overrides() {
     let (module, info) = crate::common::module(&source("wide"));
-    assert!(matches!(Program::new(&module, &info, "main"), Err(Error::Overrides(_))));
+    assert!(matches!(
+        Program::new(&module, &info, "main"),
+        Err(Error::Overrides(_))
+    ));
     let constants: PipelineConstants = [("7".to_string(), 10.0)].into_iter().collect();
     let program = Program::with_constants(&module, &info, "main", &constants).unwrap();
-    let mut b = Bindings::<F32>::new().floats(0, 0, &[1.0, 3.0]).floats(0, 1, &[0.0; 18]);
+    let mut b = Bindings::<F32>::new()
+        .floats(0, 0, &[1.0, 3.0])
+        .floats(0, 1, &[0.0; 18]);
     run_compute(&program, &mut b, [1, 1, 1], &Limits::default()).unwrap();
     let got = b.read_floats(0, 1).unwrap();
     for l in 0..3 {
         let third = f64::from(half::f16::from_f64(1.0 / 3.0));
-        let want = [(1.0f64 / 3.0) * 3.0, ((5_000_000_000i64 + l as i64) % 7) as f64, 12.0, third, 40.0, 6.0];
+        let want = [
+            (1.0f64 / 3.0) * 3.0,
+            ((5_000_000_000i64 + l as i64) % 7) as f64,
+            12.0,
+            third,
+            40.0,
+            6.0,
+        ];
         assert_eq!(got[6 * l..6 * l + 6], want);
     }
 }
@@ -205,14 +233,21 @@ fn fragment_quads() {
         assert_eq!(out.location(0, k).unwrap(), [8.0, 6.0, 14.0, 8.0]);
         assert_eq!(out.location(1, k).unwrap(), [6.0, 8.0, 6.0, 28.0]);
     }
-    let depth: Vec<f64> = (0..4).map(|k| out.columns[&Slot::FragDepth].floats(k).unwrap()[0]).collect();
+    let depth: Vec<f64> = (0..4)
+        .map(|k| out.columns[&Slot::FragDepth].floats(k).unwrap()[0])
+        .collect();
     assert_eq!(depth, [0.75, 0.25, 0.75, 0.25]);
-    let mask: Vec<_> = (0..4).map(|k| out.columns[&Slot::SampleMask].of(k)[0].int().unwrap()).collect();
+    let mask: Vec<_> = (0..4)
+        .map(|k| out.columns[&Slot::SampleMask].of(k)[0].int().unwrap())
+        .collect();
     assert_eq!(mask, [1, 2, 3, 0]);
     use bossage_bounds::Truth::{False, True};
     assert_eq!(out.discarded, [False, True, False, True]);
     let odd = StageInputs::<F32>::new(3);
-    assert!(matches!(run_fragment(&program, &mut Bindings::new(), &odd, &Limits::default()), Err(Error::Input { .. })));
+    assert!(matches!(
+        run_fragment(&program, &mut Bindings::new(), &odd, &Limits::default()),
+        Err(Error::Input { .. })
+    ));
 }
 
 #[test]
@@ -223,7 +258,10 @@ fn vertices() {
         .index(Slot::VertexIndex, &[1, 3])
         .index(Slot::InstanceIndex, &[0, 2]);
     let (out, _) = run_vertex(&program, &mut Bindings::new(), &inputs, &Limits::default()).unwrap();
-    assert_eq!(out.columns[&Slot::Position].floats(1).unwrap(), [8.0, 10.0, 12.0, 1.0]);
+    assert_eq!(
+        out.columns[&Slot::Position].floats(1).unwrap(),
+        [8.0, 10.0, 12.0, 1.0]
+    );
     assert_eq!(out.location(0, 0).unwrap(), [2.0, 0.0]);
     assert_eq!(out.columns[&Slot::Location(1, 0)].of(1)[0].int(), Some(23));
 }
@@ -237,9 +275,29 @@ fn subgroups() {
     let sum: u32 = ids.clone().sum();
     let bits = 32 + 31 + ids.fold(0, |x, k| x ^ k);
     let quad = 2 + 10 * 0 + 100 * 3 + 1000 * 2;
-    let want = [0xaaaa_aaaa, sum, 1, 2, 9, 31, bits, 3, 32 + 5, 2, 2, quad, 1 + 20, 2 + 1];
+    let want = [
+        0xaaaa_aaaa,
+        sum,
+        1,
+        2,
+        9,
+        31,
+        bits,
+        3,
+        32 + 5,
+        2,
+        2,
+        quad,
+        1 + 20,
+        2 + 1,
+    ];
     assert_eq!(got, want.map(i128::from));
     let program = program(&source("subgroups"));
-    let run = run_compute(&program, &mut Bindings::<Accept>::new().words(0, 0, &[0; 14]), [1, 1, 1], &Limits::default());
+    let run = run_compute(
+        &program,
+        &mut Bindings::<Accept>::new().words(0, 0, &[0; 14]),
+        [1, 1, 1],
+        &Limits::default(),
+    );
     assert!(matches!(run, Err(Error::Unsupported { .. })));
 }

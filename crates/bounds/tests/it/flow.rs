@@ -8,7 +8,8 @@ const SUM: &str = "let s = a[0] + a[1];";
 
 #[test]
 fn an_undecided_condition_gives_the_hull_of_both_sides() {
-    let body = format!("{SUM} var r = 5.0; if (s >= a[2]) {{ r = 1.0; }} else {{ r = 2.0; }} o[i] = r * 10.0;");
+    let body =
+        format!("{SUM} var r = 5.0; if (s >= a[2]) {{ r = 1.0; }} else {{ r = 2.0; }} o[i] = r * 10.0;");
     let x = probe::<Accept>(&body, &[0.1, 0.2, 0.3], 1)[0];
     assert_eq!((x.lo, x.hi), (10.0, 20.0));
     // Negative control: a decided condition takes one side only.
@@ -27,7 +28,9 @@ fn an_undecided_early_return_merges_at_the_call() {
             o[0] = f(a[0] + a[1]) + 1.0;
             o[1] = 3.0;
         }";
-    let b = Bindings::<Accept>::new().floats(0, 0, &[0.1, 0.2, 0.3]).floats(0, 1, &[9.0, 9.0]);
+    let b = Bindings::<Accept>::new()
+        .floats(0, 0, &[0.1, 0.2, 0.3])
+        .floats(0, 1, &[9.0, 9.0]);
     let got = dispatch(source, b).0.read_floats(0, 1).unwrap();
     // Both paths write o[0], so its old value is gone; only one writes o[1].
     assert_eq!((got[0].lo, got[0].hi), (2.0, 7.0));
@@ -47,9 +50,14 @@ fn an_undecided_loop_exit_keeps_both_exits_apart() {
 fn a_loop_that_cannot_be_decided_is_given_up() {
     let body = "var x = a[0]; var k = 0; var keep = 1.0; loop { if (x * x > a[1]) { break; } x = x + a[2] - a[2]; k++; if (k > 100000) { break; } } o[i] = x; o[i + 1u] = keep;";
     let source = crate::common::probe_source(body);
-    let (out, outcome) = run_probe::<Accept>(&program(&source), &[0.1, 0.01, 1.0], 2, 1, &Limits::default()).unwrap();
+    let (out, outcome) =
+        run_probe::<Accept>(&program(&source), &[0.1, 0.01, 1.0], 2, 1, &Limits::default()).unwrap();
     assert!(out[0].is_undecided(), "{out:?}");
-    assert_eq!(out[1], Interval::point(1.0), "what the loop does not write stays known");
+    assert_eq!(
+        out[1],
+        Interval::point(1.0),
+        "what the loop does not write stays known"
+    );
     // Once for each of the two invocations that outputs of two scalars make.
     assert_eq!(outcome.counters.abandoned_loops, 2);
     assert!(outcome.counters.forks > 0);
@@ -66,7 +74,9 @@ fn an_undecided_switch_enters_every_case_it_may() {
             o[0] = r;
         }";
     let run = |lo: f64, hi: f64| {
-        let b = Bindings::<Accept>::new().scalars(0, 0, vec![Scalar::Float(Interval::new(lo, hi))]).floats(0, 1, &[0.0]);
+        let b = Bindings::<Accept>::new()
+            .scalars(0, 0, vec![Scalar::Float(Interval::new(lo, hi))])
+            .floats(0, 1, &[0.0]);
         let x = dispatch(source, b).0.read_floats(0, 1).unwrap()[0];
         (x.lo, x.hi)
     };
@@ -89,10 +99,24 @@ fn uncertain_indices_read_and_write_every_element_they_may() {
             o[1] = t[1].y; o[2] = t[3].y; o[3] = t[1].x;
             o[4 + k] = 9.0;
         }";
-    let b = Bindings::<Accept>::new().scalars(0, 0, vec![Scalar::Float(Interval::new(1.0, 2.0))]).floats(0, 1, &[0.0; 8]);
+    let b = Bindings::<Accept>::new()
+        .scalars(0, 0, vec![Scalar::Float(Interval::new(1.0, 2.0))])
+        .floats(0, 1, &[0.0; 8]);
     let got = dispatch(source, b).0.read_floats(0, 1).unwrap();
     let pairs: Vec<_> = got.iter().map(|x| (x.lo, x.hi)).collect();
-    assert_eq!(pairs, [(2.0, 4.0), (-2.0, 5.0), (-8.0, -8.0), (2.0, 2.0), (0.0, 0.0), (0.0, 9.0), (0.0, 9.0), (0.0, 0.0)]);
+    assert_eq!(
+        pairs,
+        [
+            (2.0, 4.0),
+            (-2.0, 5.0),
+            (-8.0, -8.0),
+            (2.0, 2.0),
+            (0.0, 0.0),
+            (0.0, 9.0),
+            (0.0, 9.0),
+            (0.0, 0.0)
+        ]
+    );
 }
 
 #[test]
@@ -108,12 +132,18 @@ fn out_of_bounds_accesses_follow_the_rules() {
             o[0] = t[k] + t[0];
             o[1] = a[k];
         }";
-    let run = || Bindings::<F32>::new().floats(0, 0, &[9.0]).floats(0, 1, &[0.0; 2]);
+    let run = || {
+        Bindings::<F32>::new()
+            .floats(0, 0, &[9.0])
+            .floats(0, 1, &[0.0; 2])
+    };
     let (b, outcome) = dispatch(source, run());
     // Reads are clamped to the last element, writes dropped.
     assert_eq!(b.read_floats(0, 1).unwrap(), [3.0, 9.0]);
     assert_eq!(outcome.counters.out_of_bounds, 4);
-    let b = Bindings::<Accept>::new().floats(0, 0, &[-1.0]).floats(0, 1, &[0.0; 2]);
+    let b = Bindings::<Accept>::new()
+        .floats(0, 0, &[-1.0])
+        .floats(0, 1, &[0.0; 2]);
     assert!(dispatch(source, b).0.read_floats(0, 1).unwrap()[0].is_indeterminate());
 }
 
@@ -130,7 +160,9 @@ fn workgroup_memory_under_an_undecided_condition_is_weak() {
             workgroupBarrier();
             o[l] = w[3u - l];
         }";
-    let b = Bindings::<Accept>::new().floats(0, 0, &[0.1, 0.2, 0.3]).floats(0, 1, &[0.0; 4]);
+    let b = Bindings::<Accept>::new()
+        .floats(0, 0, &[0.1, 0.2, 0.3])
+        .floats(0, 1, &[0.0; 4]);
     for x in dispatch(source, b).0.read_floats(0, 1).unwrap() {
         assert_eq!((x.lo, x.hi), (1.0, 5.0));
     }
@@ -151,8 +183,13 @@ fn results_do_not_depend_on_the_batch() {
 
 #[test]
 fn one_invocation_budget_is_an_error_that_names_it() {
-    let p = program(&crate::common::probe_source("var x = 0.0; loop { x += 1.0; if (x < 0.0) { break; } } o[i] = x;"));
-    let limits = Limits { operations: 10_000, ..Limits::default() };
+    let p = program(&crate::common::probe_source(
+        "var x = 0.0; loop { x += 1.0; if (x < 0.0) { break; } } o[i] = x;",
+    ));
+    let limits = Limits {
+        operations: 10_000,
+        ..Limits::default()
+    };
     let mut b = Bindings::<F32>::new().floats(0, 0, &[0.0]).floats(0, 1, &[0.0]);
     let error = run_compute(&p, &mut b, [1, 1, 1], &limits).unwrap_err();
     assert!(error.to_string().contains("10000 operations"), "{error}");

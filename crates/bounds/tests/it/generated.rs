@@ -7,15 +7,36 @@ use proptest::strategy::ValueTree;
 
 fn float_expression() -> impl Strategy<Value = String> {
     let leaf = prop_oneof![
-        Just("x".to_string()), Just("y".to_string()), Just("v.z".to_string()), Just("f32(n)".to_string()),
-        (-40i32..40).prop_map(|k| format!("{:?}", f64::from(k) / 8.0)), Just("t[u32(n) & 3u]".to_string()),
+        Just("x".to_string()),
+        Just("y".to_string()),
+        Just("v.z".to_string()),
+        Just("f32(n)".to_string()),
+        (-40i32..40).prop_map(|k| format!("{:?}", f64::from(k) / 8.0)),
+        Just("t[u32(n) & 3u]".to_string()),
     ];
     leaf.prop_recursive(4, 24, 3, |inner| {
         prop_oneof![
-            (inner.clone(), prop::sample::select(vec!["+", "-", "*", "/", "%"]), inner.clone()).prop_map(|(a, o, b)| format!("({a} {o} {b})")),
-            (prop::sample::select(vec!["sin", "sqrt", "exp", "abs", "floor", "fract", "log2", "sign", "atan"]), inner.clone()).prop_map(|(f, a)| format!("{f}({a})")),
-            (prop::sample::select(vec!["min", "max", "pow", "step", "atan2"]), inner.clone(), inner.clone()).prop_map(|(f, a, b)| format!("{f}({a}, {b})")),
-            (inner.clone(), inner.clone(), inner.clone()).prop_map(|(a, b, c)| format!("select({a}, {b}, {c} > 0.25)")),
+            (
+                inner.clone(),
+                prop::sample::select(vec!["+", "-", "*", "/", "%"]),
+                inner.clone()
+            )
+                .prop_map(|(a, o, b)| format!("({a} {o} {b})")),
+            (
+                prop::sample::select(vec![
+                    "sin", "sqrt", "exp", "abs", "floor", "fract", "log2", "sign", "atan"
+                ]),
+                inner.clone()
+            )
+                .prop_map(|(f, a)| format!("{f}({a})")),
+            (
+                prop::sample::select(vec!["min", "max", "pow", "step", "atan2"]),
+                inner.clone(),
+                inner.clone()
+            )
+                .prop_map(|(f, a, b)| format!("{f}({a}, {b})")),
+            (inner.clone(), inner.clone(), inner.clone())
+                .prop_map(|(a, b, c)| format!("select({a}, {b}, {c} > 0.25)")),
             (inner.clone(), inner.clone(), inner.clone()).prop_map(|(a, b, c)| format!("mix({a}, {b}, {c})")),
             (inner.clone(), inner).prop_map(|(a, b)| format!("dot(vec2f({a}, y), vec2f(x, {b}))")),
         ]
@@ -34,10 +55,13 @@ fn statement() -> impl Strategy<Value = String> {
     leaf.prop_recursive(3, 12, 3, |inner| {
         let block = prop::collection::vec(inner, 1..3).prop_map(|list| list.join(" "));
         prop_oneof![
-            (float_expression(), block.clone(), block.clone()).prop_map(|(c, a, b)| format!("if ({c} > x) {{ {a} }} else {{ {b} }}")),
-            (1u32..6, block.clone(), float_expression())
-                .prop_map(|(k, b, c)| format!("for (var k = 0u; k < {k}u; k++) {{ {b} if ({c} > 3.0) {{ break; }} }}")),
-            (block.clone(), block.clone()).prop_map(|(a, b)| format!("switch n {{ case 0, 3: {{ {a} }} default: {{ {b} }} }}")),
+            (float_expression(), block.clone(), block.clone())
+                .prop_map(|(c, a, b)| format!("if ({c} > x) {{ {a} }} else {{ {b} }}")),
+            (1u32..6, block.clone(), float_expression()).prop_map(|(k, b, c)| format!(
+                "for (var k = 0u; k < {k}u; k++) {{ {b} if ({c} > 3.0) {{ break; }} }}"
+            )),
+            (block.clone(), block.clone())
+                .prop_map(|(a, b)| format!("switch n {{ case 0, 3: {{ {a} }} default: {{ {b} }} }}")),
             (float_expression(), block).prop_map(|(c, a)| format!("if ({c} < 0.0) {{ {a} return; }}")),
         ]
     })
@@ -83,5 +107,8 @@ fn the_generator_makes_programs_that_mean_something() {
     });
     assert!(valid.count() >= 40);
     let (m, info) = module(&crate::common::probe_source("o[i] = 1.0;"));
-    assert!(!matches!(Program::new(&m, &info, "main"), Err(Error::Unsupported { .. })));
+    assert!(!matches!(
+        Program::new(&m, &info, "main"),
+        Err(Error::Unsupported { .. })
+    ));
 }

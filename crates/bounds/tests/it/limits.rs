@@ -2,8 +2,8 @@
 
 use crate::common::{module, probe_source, program};
 use bossage_bounds::{
-    Accept, Bindings, Error, F32, Flags, Interval, Limits, Program, Range, Scalar, StageInputs, TexelFormat, Texture, range_scalar,
-    run_compute, run_fragment, run_probe, run_probe_with,
+    Accept, Bindings, Error, F32, Flags, Interval, Limits, Program, Range, Scalar, StageInputs, TexelFormat,
+    Texture, range_scalar, run_compute, run_fragment, run_probe, run_probe_with,
 };
 
 fn error_of(source: &str, bindings: Bindings<F32>) -> Error {
@@ -14,12 +14,33 @@ fn error_of(source: &str, bindings: Bindings<F32>) -> Error {
 fn bad_bindings_are_named() {
     let source = probe_source("o[i] = a[i];");
     let e = error_of(&source, Bindings::new());
-    assert!(matches!(e, Error::MissingBinding { group: 0, binding: 0, .. }), "{e}");
+    assert!(
+        matches!(
+            e,
+            Error::MissingBinding {
+                group: 0,
+                binding: 0,
+                ..
+            }
+        ),
+        "{e}"
+    );
     let uniform = "@group(0) @binding(3) var<uniform> u: vec4f; @group(0) @binding(1) var<storage, read_write> o: array<f32>;
         @compute @workgroup_size(1) fn main() { o[0] = u.x; }";
-    let e = error_of(uniform, Bindings::new().bytes(0, 3, vec![0; 8]).floats(0, 1, &[0.0]));
-    assert!(e.to_string().contains("8 bytes are bound, the variable needs 16"), "{e}");
-    let e = error_of(&source, Bindings::new().scalars(0, 0, vec![Scalar::Int(1, 1)]).floats(0, 1, &[0.0]));
+    let e = error_of(
+        uniform,
+        Bindings::new().bytes(0, 3, vec![0; 8]).floats(0, 1, &[0.0]),
+    );
+    assert!(
+        e.to_string().contains("8 bytes are bound, the variable needs 16"),
+        "{e}"
+    );
+    let e = error_of(
+        &source,
+        Bindings::new()
+            .scalars(0, 0, vec![Scalar::Int(1, 1)])
+            .floats(0, 1, &[0.0]),
+    );
     assert!(matches!(e, Error::Buffer { .. }), "{e}");
 }
 
@@ -27,18 +48,39 @@ fn bad_bindings_are_named() {
 fn bad_entry_points_and_stages() {
     let (m, info) = module(&probe_source("o[i] = 1.0;"));
     let e = Program::new(&m, &info, "mian").unwrap_err();
-    assert!(e.to_string().contains("`mian`") && e.to_string().contains("main"), "{e}");
+    assert!(
+        e.to_string().contains("`mian`") && e.to_string().contains("main"),
+        "{e}"
+    );
     let p = program(&probe_source("o[i] = 1.0;"));
-    let e = run_fragment(&p, &mut Bindings::<F32>::new(), &StageInputs::new(4), &Limits::default()).unwrap_err();
+    let e = run_fragment(
+        &p,
+        &mut Bindings::<F32>::new(),
+        &StageInputs::new(4),
+        &Limits::default(),
+    )
+    .unwrap_err();
     assert!(matches!(e, Error::WrongStage { .. }), "{e}");
 }
 
 #[test]
 fn bad_ranges_and_textures() {
-    assert!(matches!(range_scalar::<Range>(1.0, 0.0), Err(Error::EmptyRange { .. })));
-    assert!(matches!(range_scalar::<Range>(f64::NAN, 0.0), Err(Error::EmptyRange { .. })));
-    assert!(matches!(Texture::d2(TexelFormat::Rgba8Unorm, 2, 2, vec![0; 15]), Err(Error::Texture { .. })));
-    assert!(matches!(Texture::d2(TexelFormat::Rgba8Unorm, 0, 2, vec![]), Err(Error::Texture { .. })));
+    assert!(matches!(
+        range_scalar::<Range>(1.0, 0.0),
+        Err(Error::EmptyRange { .. })
+    ));
+    assert!(matches!(
+        range_scalar::<Range>(f64::NAN, 0.0),
+        Err(Error::EmptyRange { .. })
+    ));
+    assert!(matches!(
+        Texture::d2(TexelFormat::Rgba8Unorm, 2, 2, vec![0; 15]),
+        Err(Error::Texture { .. })
+    ));
+    assert!(matches!(
+        Texture::d2(TexelFormat::Rgba8Unorm, 0, 2, vec![]),
+        Err(Error::Texture { .. })
+    ));
 }
 
 #[test]
@@ -49,13 +91,21 @@ fn deep_calls_are_refused_without_a_crash() {
     }
     source += &probe_source("o[i] = g399(a[i]);");
     let (m, info) = module(&source);
-    assert!(matches!(Program::new(&m, &info, "main"), Err(Error::Depth { .. })));
+    assert!(matches!(
+        Program::new(&m, &info, "main"),
+        Err(Error::Depth { .. })
+    ));
 }
 
 #[test]
 fn counters_count_what_runs() {
-    let p = program(&probe_source("var s = 0.0; for (var k = 0u; k < 10u; k++) { s += a[i] * 2.0; } o[i] = s;"));
-    let limits = Limits { count: true, ..Limits::default() };
+    let p = program(&probe_source(
+        "var s = 0.0; for (var k = 0u; k < 10u; k++) { s += a[i] * 2.0; } o[i] = s;",
+    ));
+    let limits = Limits {
+        count: true,
+        ..Limits::default()
+    };
     let (_, outcome) = run_probe::<F32>(&p, &[1.0], 1, 1, &limits).unwrap();
     let (_, twice) = run_probe::<F32>(&p, &[1.0, 1.0], 2, 2, &limits).unwrap();
     let spans: u64 = outcome.spans.iter().map(|s| s.operations).sum();
@@ -69,8 +119,19 @@ fn counters_count_what_runs() {
 }
 
 fn over(body: &str, ranges: &[(f64, f64)]) -> Interval {
-    let list = ranges.iter().map(|&(lo, hi)| range_scalar::<Range>(lo, hi).unwrap()).collect();
-    run_probe_with(&program(&probe_source(body)), Bindings::new().scalars(0, 0, list), 1, 1, &Limits::default()).unwrap().0[0]
+    let list = ranges
+        .iter()
+        .map(|&(lo, hi)| range_scalar::<Range>(lo, hi).unwrap())
+        .collect();
+    run_probe_with(
+        &program(&probe_source(body)),
+        Bindings::new().scalars(0, 0, list),
+        1,
+        1,
+        &Limits::default(),
+    )
+    .unwrap()
+    .0[0]
 }
 
 #[test]
@@ -84,15 +145,23 @@ fn ranges_follow_the_formula() {
     let x = over("o[i] = sqrt(max(a[0], 0.0));", &[(-1.0, 4.0)]);
     assert!(x.flags.is_none() && x.contains(0.0) && x.contains(2.0) && !x.contains(2.1));
     let x = over("let d = a[0] * a[0]; o[i] = sqrt(d);", &[(-3.0, 2.0)]);
-    assert!(x.flags.is_none() && x.lo == 0.0, "a square is not negative: {x:?}");
+    assert!(
+        x.flags.is_none() && x.lo == 0.0,
+        "a square is not negative: {x:?}"
+    );
     let x = over("o[i] = select(1.0 / a[0], 0.0, a[0] < 1.0);", &[(1.0, 4.0)]);
     assert!(x.flags.is_none() && x.contains(0.25) && !x.contains(0.0));
 }
 
 #[test]
 fn memory_limits_are_errors() {
-    let p = program(&probe_source("var t: array<f32, 4096>; t[u32(a[0])] = 1.0; o[i] = t[1];"));
-    let limits = Limits { memory: 1 << 20, ..Limits::default() };
+    let p = program(&probe_source(
+        "var t: array<f32, 4096>; t[u32(a[0])] = 1.0; o[i] = t[1];",
+    ));
+    let limits = Limits {
+        memory: 1 << 20,
+        ..Limits::default()
+    };
     let e = run_probe::<Accept>(&p, &[1.0], 1, 1, &limits).unwrap_err();
     assert!(matches!(e, Error::Memory { .. }), "{e}");
 }

@@ -60,20 +60,37 @@ const COMPOSED: &[Case] = &[
         let t: f64 = (1.0 - x) / (y - x);
         t * t * (3.0 - 2.0 * t)
     }),
-    ("dot(vec3f(x, y, z), vec3f(y, z, x))", |[x, y, z]| x * y + y * z + z * x),
+    ("dot(vec3f(x, y, z), vec3f(y, z, x))", |[x, y, z]| {
+        x * y + y * z + z * x
+    }),
     ("length(vec2f(x, y))", |[x, y, _]| x.hypot(y)),
     ("length(z)", |[.., z]| z.abs()),
-    ("distance(vec2f(x, y), vec2f(z, x))", |[x, y, z]| (x - z).hypot(y - x)),
-    ("normalize(vec3f(x, y, z)).y", |[x, y, z]| y / (x * x + y * y + z * z).sqrt()),
-    ("cross(vec3f(x, y, z), vec3f(y, z, x)).z", |[x, y, z]| x * z - y * y),
-    ("reflect(vec2f(x, y), vec2f(0.6, 0.8)).x", |[x, y, _]| x - 2.0 * (x * 0.6 + y * 0.8) * 0.6),
-    ("faceForward(vec2f(x, y), vec2f(1.0, 0.0), vec2f(z, 0.0)).x", |[x, ..]| x),
+    ("distance(vec2f(x, y), vec2f(z, x))", |[x, y, z]| {
+        (x - z).hypot(y - x)
+    }),
+    ("normalize(vec3f(x, y, z)).y", |[x, y, z]| {
+        y / (x * x + y * y + z * z).sqrt()
+    }),
+    ("cross(vec3f(x, y, z), vec3f(y, z, x)).z", |[x, y, z]| {
+        x * z - y * y
+    }),
+    ("reflect(vec2f(x, y), vec2f(0.6, 0.8)).x", |[x, y, _]| {
+        x - 2.0 * (x * 0.6 + y * 0.8) * 0.6
+    }),
+    (
+        "faceForward(vec2f(x, y), vec2f(1.0, 0.0), vec2f(z, 0.0)).x",
+        |[x, ..]| x,
+    ),
     ("refract(vec2f(0.6, -0.8), vec2f(0.0, 1.0), 0.5).x", |_| 0.3),
     ("determinant(mat2x2f(x, y, z, x))", |[x, y, z]| x * x - y * z),
-    ("determinant(mat3x3f(x, 0.0, 1.0, 0.0, y, 0.0, 1.0, 0.0, z))", |[x, y, z]| x * y * z - y),
-    ("determinant(mat4x4f(x, 0.0, 0.0, 1.0, 0.0, y, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 1.0, 0.0, 0.0, z))", |[x, y, z]| {
-        2.0 * y * (x * z - 1.0)
-    }),
+    (
+        "determinant(mat3x3f(x, 0.0, 1.0, 0.0, y, 0.0, 1.0, 0.0, z))",
+        |[x, y, z]| x * y * z - y,
+    ),
+    (
+        "determinant(mat4x4f(x, 0.0, 0.0, 1.0, 0.0, y, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 1.0, 0.0, 0.0, z))",
+        |[x, y, z]| 2.0 * y * (x * z - 1.0),
+    ),
 ];
 
 const XYZ: [f32; 3] = [0.7, 1.9, -2.3];
@@ -102,11 +119,21 @@ fn composed_functions_stay_within_their_roundings() {
         let want = f(wide());
         let got = probe::<F32>(&body(expression), &XYZ, 1)[0];
         // At most 16 roundings of half a unit, on intermediate values below 16: 16 * 0.5 * 16 * 2^-24 * 2.
-        assert!((got - want).abs() <= 16.0 * 16.0 * 2f64.powi(-24), "{expression}: {got}, want {want}");
+        assert!(
+            (got - want).abs() <= 16.0 * 16.0 * 2f64.powi(-24),
+            "{expression}: {got}, want {want}"
+        );
         // The f64 domain has the same formula with roundings of 2^-53.
         let got = probe::<F64>(&body(expression), &XYZ, 1)[0];
-        let inputs = if expression.contains("0.6") { 2f64.powi(-22) } else { 0.0 };
-        assert!((got - want).abs() <= 16.0 * 16.0 * 2f64.powi(-53) + inputs, "{expression}: {got}, want {want}");
+        let inputs = if expression.contains("0.6") {
+            2f64.powi(-22)
+        } else {
+            0.0
+        };
+        assert!(
+            (got - want).abs() <= 16.0 * 16.0 * 2f64.powi(-53) + inputs,
+            "{expression}: {got}, want {want}"
+        );
     }
 }
 
@@ -116,8 +143,14 @@ fn acceptance_intervals_contain_truth_and_machine() {
         let interval = probe::<Accept>(&body(expression), &XYZ, 1)[0];
         let machine = probe::<F32>(&body(expression), &XYZ, 1)[0];
         assert!(!interval.is_indeterminate(), "{expression}: {interval:?}");
-        assert!(interval.contains(machine), "{expression}: {machine} not in {interval:?}");
-        assert!(interval.contains(f(wide()) as f32 as f64) || expression.contains("0.6"), "{expression}: {interval:?}");
+        assert!(
+            interval.contains(machine),
+            "{expression}: {machine} not in {interval:?}"
+        );
+        assert!(
+            interval.contains(f(wide()) as f32 as f64) || expression.contains("0.6"),
+            "{expression}: {interval:?}"
+        );
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::common::{program, source};
 use bossage_bounds::{
-    Accept, AddressMode, Bindings, CompareFunction, Dimension, Domain, F32, Filter, Interval, Limits, Sampler, StageInputs, TexelFormat,
-    Texture, run_fragment,
+    Accept, AddressMode, Bindings, CompareFunction, Dimension, Domain, F32, Filter, Interval, Limits,
+    Sampler, StageInputs, TexelFormat, Texture, run_fragment,
 };
 use proptest::prelude::*;
 
@@ -15,45 +15,121 @@ fn floats(list: &[f32]) -> Vec<u8> {
 fn ramp() -> Texture {
     let base: Vec<f32> = (0..16).map(|k| k as f32).collect();
     let t = Texture::d2_floats(4, 4, 1, &base).unwrap();
-    t.with_level(floats(&[10.0, 20.0, 30.0, 40.0])).unwrap().with_level(floats(&[100.0])).unwrap()
+    t.with_level(floats(&[10.0, 20.0, 30.0, 40.0]))
+        .unwrap()
+        .with_level(floats(&[100.0]))
+        .unwrap()
 }
 
 fn faces(layers: u32) -> Texture {
     let texels: Vec<f32> = (0..layers).map(|k| (k + 1) as f32).collect();
-    Texture::new(Dimension::Cube, TexelFormat::R32Float, [1, 1, 1], layers, floats(&texels)).unwrap()
+    Texture::new(
+        Dimension::Cube,
+        TexelFormat::R32Float,
+        [1, 1, 1],
+        layers,
+        floats(&texels),
+    )
+    .unwrap()
 }
 
 fn bindings<D: Domain>() -> Bindings<D> {
     let depth = |n: u32| {
         let texels: Vec<f32> = (0..n * 4).map(|k| [0.2, 0.4, 0.6, 0.8][k as usize % 4]).collect();
-        Texture::new(Dimension::D2, TexelFormat::Depth32Float, [2, 2, 1], n, floats(&texels)).unwrap()
+        Texture::new(
+            Dimension::D2,
+            TexelFormat::Depth32Float,
+            [2, 2, 1],
+            n,
+            floats(&texels),
+        )
+        .unwrap()
     };
     let words = |list: &[u32]| list.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<_>>();
     let three: Vec<f32> = (0..8).map(|k| k as f32).collect();
-    let cube_depth = Texture::new(Dimension::Cube, TexelFormat::Depth32Float, [1, 1, 1], 6, floats(&[0.9, 0.1, 0.1, 0.1, 0.1, 0.1]));
+    let cube_depth = Texture::new(
+        Dimension::Cube,
+        TexelFormat::Depth32Float,
+        [1, 1, 1],
+        6,
+        floats(&[0.9, 0.1, 0.1, 0.1, 0.1, 0.1]),
+    );
     Bindings::new()
         .texture(0, 0, ramp())
         .sampler(0, 1, Sampler::nearest(AddressMode::Repeat))
-        .texture(0, 2, Texture::new(Dimension::D1, TexelFormat::Rg32Float, [3, 1, 1], 1, floats(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0])).unwrap())
-        .texture(0, 3, Texture::new(Dimension::D3, TexelFormat::R32Float, [2, 2, 2], 1, floats(&three)).unwrap())
-        .texture(0, 4, Texture::new(Dimension::D2, TexelFormat::R32Float, [1, 1, 1], 3, floats(&[1.0, 2.0, 3.0])).unwrap())
+        .texture(
+            0,
+            2,
+            Texture::new(
+                Dimension::D1,
+                TexelFormat::Rg32Float,
+                [3, 1, 1],
+                1,
+                floats(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
+            )
+            .unwrap(),
+        )
+        .texture(
+            0,
+            3,
+            Texture::new(Dimension::D3, TexelFormat::R32Float, [2, 2, 2], 1, floats(&three)).unwrap(),
+        )
+        .texture(
+            0,
+            4,
+            Texture::new(
+                Dimension::D2,
+                TexelFormat::R32Float,
+                [1, 1, 1],
+                3,
+                floats(&[1.0, 2.0, 3.0]),
+            )
+            .unwrap(),
+        )
         .texture(0, 5, faces(6))
         .texture(0, 6, depth(1))
-        .sampler(0, 7, Sampler::linear(AddressMode::ClampToEdge).comparing(CompareFunction::LessEqual))
-        .texture(0, 8, Texture::d2(TexelFormat::R32Uint, 2, 1, words(&[5, 4_000_000_000])).unwrap())
+        .sampler(
+            0,
+            7,
+            Sampler::linear(AddressMode::ClampToEdge).comparing(CompareFunction::LessEqual),
+        )
+        .texture(
+            0,
+            8,
+            Texture::d2(TexelFormat::R32Uint, 2, 1, words(&[5, 4_000_000_000])).unwrap(),
+        )
         .texture(0, 9, multisampled())
-        .texture(0, 10, Texture::d2(TexelFormat::Rgba8Unorm, 2, 1, vec![0; 8]).unwrap())
-        .texture(0, 11, Texture::d2(TexelFormat::R32Uint, 1, 2, words(&[0, 1])).unwrap())
+        .texture(
+            0,
+            10,
+            Texture::d2(TexelFormat::Rgba8Unorm, 2, 1, vec![0; 8]).unwrap(),
+        )
+        .texture(
+            0,
+            11,
+            Texture::d2(TexelFormat::R32Uint, 1, 2, words(&[0, 1])).unwrap(),
+        )
         .texture(0, 12, faces(12))
         .texture(0, 13, depth(2))
         .texture(0, 14, cube_depth.unwrap())
-        .texture(0, 15, Texture::d2(TexelFormat::R32Uint, 2, 2, words(&[0, 0, 3, 5])).unwrap())
+        .texture(
+            0,
+            15,
+            Texture::d2(TexelFormat::R32Uint, 2, 2, words(&[0, 0, 3, 5])).unwrap(),
+        )
         .floats(0, 16, &[0.0; 23])
 }
 
 fn multisampled() -> Texture {
     let texels: Vec<f32> = (0..8).map(|k| k as f32).collect();
-    let t = Texture::new(Dimension::D2, TexelFormat::R32Float, [2, 1, 1], 4, floats(&texels)).unwrap();
+    let t = Texture::new(
+        Dimension::D2,
+        TexelFormat::R32Float,
+        [2, 1, 1],
+        4,
+        floats(&texels),
+    )
+    .unwrap();
     t.multisampled(4).unwrap()
 }
 
@@ -65,7 +141,13 @@ fn inputs<D: Domain>(u: D::Float, v: D::Float) -> StageInputs<D> {
 #[test]
 fn every_built_in_by_hand() {
     let mut b = bindings::<F32>();
-    run_fragment(&program(&source("textures")), &mut b, &inputs(0.3, 0.6), &Limits::default()).unwrap();
+    run_fragment(
+        &program(&source("textures")),
+        &mut b,
+        &inputs(0.3, 0.6),
+        &Limits::default(),
+    )
+    .unwrap();
     // Texel (1, 2) of the ramp is 9.
     let want = [
         9.0,
@@ -106,11 +188,20 @@ fn every_built_in_by_hand() {
     let got = b.read_floats(0, 16).unwrap();
     // Values o[18] is not in the shader order: textureSampleBaseClampToEdge comes after the stores.
     for (k, (g, w)) in got.iter().zip(want).enumerate() {
-        assert!((g - w).abs() <= f64::from(f32::EPSILON) * w.abs(), "o[{k}] = {g}, want {w}");
+        assert!(
+            (g - w).abs() <= f64::from(f32::EPSILON) * w.abs(),
+            "o[{k}] = {g}, want {w}"
+        );
     }
-    let written: Vec<f64> = b.written_textures[&(0, 10)].iter().map(|s| s.float().unwrap()).collect();
+    let written: Vec<f64> = b.written_textures[&(0, 10)]
+        .iter()
+        .map(|s| s.float().unwrap())
+        .collect();
     // 0.5 · 255 = 127.5, to even 128.
-    assert_eq!(written[4..], [f64::from((128.0f64 / 255.0) as f32), 1.0, 0.0, 1.0]);
+    assert_eq!(
+        written[4..],
+        [f64::from((128.0f64 / 255.0) as f32), 1.0, 0.0, 1.0]
+    );
     // In lockstep the four fragments load before any of them stores.
     assert_eq!(b.written_textures[&(0, 11)][4].int(), Some(1 + 41));
     assert_eq!(b.written_textures[&(0, 15)][12].int(), Some(9));
@@ -123,9 +214,18 @@ fn acceptance_contains_the_point_results() {
     let mut wide = bindings::<Accept>();
     let p = program(&source("textures"));
     run_fragment(&p, &mut points, &inputs(0.3, 0.6), &Limits::default()).unwrap();
-    let (u, v) = (Interval::point(f64::from(0.3f32)), Interval::point(f64::from(0.6f32)));
+    let (u, v) = (
+        Interval::point(f64::from(0.3f32)),
+        Interval::point(f64::from(0.6f32)),
+    );
     run_fragment(&p, &mut wide, &inputs(u, v), &Limits::default()).unwrap();
-    for (k, (x, w)) in points.read_floats(0, 16).unwrap().iter().zip(wide.read_floats(0, 16).unwrap()).enumerate() {
+    for (k, (x, w)) in points
+        .read_floats(0, 16)
+        .unwrap()
+        .iter()
+        .zip(wide.read_floats(0, 16).unwrap())
+        .enumerate()
+    {
         assert!(w.contains(*x), "o[{k}]: {x} not in {w:?}");
     }
 }
@@ -141,10 +241,20 @@ fn height(x: i64, y: i64) -> f32 {
 
 fn lookup<D: Domain>(mode: AddressMode, filter: Filter, u: D::Float, v: D::Float) -> D::Float {
     let texels: Vec<f32> = (0..64).map(|k| height(k % 8, k / 8)).collect();
-    let sampler = Sampler { mag: filter, min: filter, ..Sampler::linear(mode) };
-    let mut b = Bindings::<D>::new().texture(0, 0, Texture::d2_floats(8, 8, 1, &texels).unwrap()).sampler(0, 1, sampler);
+    let sampler = Sampler {
+        mag: filter,
+        min: filter,
+        ..Sampler::linear(mode)
+    };
+    let mut b = Bindings::<D>::new()
+        .texture(0, 0, Texture::d2_floats(8, 8, 1, &texels).unwrap())
+        .sampler(0, 1, sampler);
     let input = StageInputs::new(1).location(0, 2, &[u, v]);
-    run_fragment(&program(LOOKUP), &mut b, &input, &Limits::default()).unwrap().0.location(0, 0).unwrap()[0]
+    run_fragment(&program(LOOKUP), &mut b, &input, &Limits::default())
+        .unwrap()
+        .0
+        .location(0, 0)
+        .unwrap()[0]
 }
 
 proptest! {
@@ -176,9 +286,21 @@ fn implicit_levels_follow_the_quad() {
         @fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f { return textureSample(t, s, uv); }";
     let p = program(shader);
     let sample = |step: f64| {
-        let mut b = Bindings::<F32>::new().texture(0, 0, ramp()).sampler(0, 1, Sampler::nearest(AddressMode::Repeat));
+        let mut b =
+            Bindings::<F32>::new()
+                .texture(0, 0, ramp())
+                .sampler(0, 1, Sampler::nearest(AddressMode::Repeat));
         let uv = [0.1, 0.1, 0.1 + step, 0.1, 0.1, 0.1 + step, 0.1 + step, 0.1 + step];
-        run_fragment(&p, &mut b, &StageInputs::new(4).location(0, 2, &uv), &Limits::default()).unwrap().0.location(0, 0).unwrap()[0]
+        run_fragment(
+            &p,
+            &mut b,
+            &StageInputs::new(4).location(0, 2, &uv),
+            &Limits::default(),
+        )
+        .unwrap()
+        .0
+        .location(0, 0)
+        .unwrap()[0]
     };
     // One texel a pixel: level 0; two: level 1; four: level 2.
     assert_eq!([sample(0.25), sample(0.5), sample(1.0)], [0.0, 10.0, 100.0]);
@@ -191,7 +313,11 @@ fn an_uncertain_texel_index_gives_the_hull_of_the_texels() {
         @fragment fn main(@location(0) uv: vec2f) -> @location(0) vec4f { return textureLoad(t, vec2i(uv * 4.0), 0); }";
     let mut b = Bindings::<Accept>::new().texture(0, 0, ramp());
     let input = StageInputs::new(1).location(0, 2, &[Interval::new(0.3, 0.6), Interval::point(0.5)]);
-    let x = run_fragment(&program(shader), &mut b, &input, &Limits::default()).unwrap().0.location(0, 0).unwrap()[0];
+    let x = run_fragment(&program(shader), &mut b, &input, &Limits::default())
+        .unwrap()
+        .0
+        .location(0, 0)
+        .unwrap()[0];
     // Columns 1 and 2 of row 2.
     assert_eq!((x.lo, x.hi), (9.0, 10.0));
 }
