@@ -9,7 +9,7 @@ use crate::args::Global;
 use crate::args::render::Render;
 use crate::console::{self, Console};
 use crate::error::Result;
-use crate::output::write_whole;
+use crate::output::{check_writable, write_whole};
 use crate::picture::{Difference, Linear, difference};
 use crate::{drawing, inputs, technique};
 
@@ -20,6 +20,7 @@ pub(crate) fn run(args: &Render, global: &Global, console: Console) -> Result<Ve
         scene.camera.size = [size.width, size.height];
     }
     let variants = variants(&scene, args)?;
+    check_writable(&args.output)?;
     let selector = args
         .adapter
         .as_deref()
