@@ -50,6 +50,7 @@ pub mod lint;
 pub mod manifest;
 pub mod options;
 mod overrides;
+mod repairs;
 mod resources;
 pub mod shader;
 pub mod source;

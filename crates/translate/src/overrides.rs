@@ -11,6 +11,7 @@ use naga::{Expression, Literal, Module, Override};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::front;
 use crate::manifest::OverrideValue;
+use crate::repairs::repair;
 use crate::shader::{Overrides, Unit, unit};
 use crate::type_name::type_name;
 
@@ -76,7 +77,11 @@ pub(crate) fn resolve(
             let selected = Some((entry.stage, entry.name.as_str()));
             let (module, info) = process_overrides(module, info, selected, &constants)
                 .map_err(|error| diagnostic(name, text, module, &error))?;
-            unit(module.into_owned(), info.into_owned())
+            let (mut module, mut info) = (module.into_owned(), info.into_owned());
+            if repair(&mut module) {
+                info = front::analyze(name, text, &module)?;
+            }
+            unit(module, info)
         })
         .collect()
 }

@@ -18,6 +18,7 @@ use crate::front;
 use crate::guard::guard;
 use crate::manifest::OverrideValue;
 use crate::overrides;
+use crate::repairs::repair;
 use crate::resources::{Resource, resources};
 use crate::source::{Language, Source};
 use crate::target::Stage;
@@ -226,6 +227,7 @@ fn split(
 /// Drops everything that the only entry point does not reach.
 pub(crate) fn reduce(name: &str, text: &str, mut module: Module) -> Result<Unit, Diagnostic> {
     compact(&mut module, KeepUnused::No);
+    repair(&mut module);
     let info = front::analyze(name, text, &module)?;
     unit(module, info)
 }

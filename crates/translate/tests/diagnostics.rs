@@ -143,7 +143,7 @@ fn one_target_refuses_and_the_others_do_not() {
 fn half_floats_need_a_target_that_has_them() {
     let half = fragment("enable f16;", "vec4f(vec4<f16>(f16(x)))");
     let old = refused(&half, Target::Hlsl, &EmitOptions::default());
-    assert!(old.message.contains("it comes with 6_2"), "{old}");
+    assert!(old.message.contains("it comes with 6.2"), "{old}");
     let new = EmitOptions {
         hlsl: ShaderModel::V6_2,
         ..EmitOptions::default()

@@ -40,7 +40,7 @@ fn missing_features(job: &Job<'_>, missing: Features) -> Diagnostic {
     job.refuse(Code::Unsupported, message, place)
 }
 
-const FEATURES: [(Features, &str); 22] = [
+const FEATURES: [(Features, &str); 21] = [
     (Features::COMPUTE_SHADER, "compute shaders"),
     (Features::BUFFER_STORAGE, "storage buffers"),
     (Features::DYNAMIC_ARRAY_SIZE, "runtime-sized arrays"),
@@ -67,7 +67,6 @@ const FEATURES: [(Features, &str); 22] = [
         "multisampled texture arrays",
     ),
     (Features::DOUBLE_TYPE, "64-bit floats"),
-    (Features::ARRAY_OF_ARRAYS, "arrays of arrays"),
     (
         Features::NOPERSPECTIVE_QUALIFIER,
         "linear (noperspective) interpolation",
@@ -97,7 +96,6 @@ fn find(unit: &Unit, feature: Features) -> Option<Span> {
             image(unit, |_, class| class.is_multisampled())
         }
         Features::DOUBLE_TYPE => ir::find_type(unit, |t| ir::scalar_of(t) == Some(naga::Scalar::F64)),
-        Features::ARRAY_OF_ARRAYS => nested_array(unit),
         Features::NOPERSPECTIVE_QUALIFIER => varying(unit, |binding| {
             matches!(
                 binding,
@@ -156,13 +154,6 @@ fn depth_sample(unit: &Unit) -> Option<Span> {
     ir::find_expression(unit, |e| {
         matches!(*e, Expression::ImageSample { depth_ref: Some(_), level, .. }
             if level != naga::SampleLevel::Auto)
-    })
-}
-
-fn nested_array(unit: &Unit) -> Option<Span> {
-    ir::find_type(unit, |inner| {
-        matches!(*inner, TypeInner::Array { base, .. }
-            if matches!(unit.module.types[base].inner, TypeInner::Array { .. }))
     })
 }
 

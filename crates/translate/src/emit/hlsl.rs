@@ -22,6 +22,7 @@ use crate::target::ShaderModel;
 const INDEX_BUFFER_SPACE: u8 = u8::MAX;
 
 pub(super) fn write(job: &Job<'_>) -> Result<Written, Diagnostic> {
+    check_immediates(job)?;
     let registers = hlsl_registers::assign(job, needs_special_constants(job))?;
     let options = naga_options(job, &registers);
     let pipeline = hlsl::PipelineOptions::default();
@@ -41,6 +42,22 @@ pub(super) fn write(job: &Job<'_>) -> Result<Written, Diagnostic> {
         entry_point,
         placement,
     })
+}
+
+/// naga writes push constants as `ConstantBuffer<T>`, and knows only structs for T.
+fn check_immediates(job: &Job<'_>) -> Result<(), Diagnostic> {
+    let Some((handle, variable)) = job.immediates else {
+        return Ok(());
+    };
+    let module = &job.unit.module;
+    if matches!(module.types[variable.ty].inner, naga::TypeInner::Struct { .. }) {
+        return Ok(());
+    }
+    let span = module.global_variables.get_span(handle);
+    let message = "HLSL: push constants must be a struct";
+    Err(job
+        .refuse(Code::Unsupported, message, Some(span))
+        .with_hint("wrap the value in a struct with one member"))
 }
 
 fn needs_special_constants(job: &Job<'_>) -> bool {

@@ -9,7 +9,6 @@ use rspirv::binary::Disassemble;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::{Contents, Job, Placement, Slot, Written};
 use crate::manifest::SpirvSlot;
-use crate::options::BoundsChecks;
 use crate::resources::Resource;
 
 pub(super) fn write(job: &Job<'_>) -> Result<Written, Diagnostic> {
@@ -47,7 +46,6 @@ fn naga_options(job: &Job<'_>) -> spv::Options<'static> {
         flags,
         bounds_check_policies: super::bounds_check_policies(job.options.bounds_checks),
         force_loop_bounding: job.options.bound_loops,
-        ray_query_initialization_tracking: job.options.bounds_checks == BoundsChecks::Restrict,
         ..spv::Options::default()
     }
 }

@@ -31,7 +31,7 @@ pub(super) const RULE: Rule = Rule {
 fn find(shader: &Shader) -> Vec<Finding> {
     let fragments = shader.units().iter().filter(|unit| unit.stage == Stage::Fragment);
     fragments
-        .flat_map(|unit| spans(unit))
+        .flat_map(spans)
         .map(|span| {
             let message = "a derivative is taken where control flow is not uniform, so the mip level is undefined; \
                  sample with an explicit level or gradient";

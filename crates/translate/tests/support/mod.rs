@@ -3,6 +3,7 @@
 #![allow(clippy::print_stderr, reason = "a skip must be seen")]
 
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use bossage_translate::external::{State, Validator};
 use bossage_translate::{Shader, Source, external};
@@ -41,10 +42,11 @@ pub(crate) fn wgsl(name: &str, text: &str) -> Shader {
 /// A tool that the tests need. A missing one fails where `BOSSAGE_REQUIRE_TOOLS` is set, as CI does; elsewhere the
 /// skip is printed and `None` comes back.
 pub(crate) fn tool(name: &str) -> Option<Vec<Validator>> {
-    let found = external::detect();
+    static FOUND: OnceLock<Vec<Validator>> = OnceLock::new();
+    let found = FOUND.get_or_init(external::detect);
     let tool = found.iter().find(|v| v.tool == name).expect("a known tool");
     if tool.state == State::Enabled {
-        return Some(found);
+        return Some(found.clone());
     }
     let reason = tool.reason.clone().unwrap_or_default();
     assert!(
