@@ -40,7 +40,11 @@ pub fn hardened(normal: DVec3, light: DVec3, view: DVec3, surface: &Reflectance)
 #[must_use]
 pub fn highlight_power_published(x: f64, shininess: f64) -> f64 {
     let base = saturate(x);
-    if base == 0.0 && shininess == 0.0 { f64::NAN } else { base.powf(shininess) }
+    if base == 0.0 && shininess == 0.0 {
+        f64::NAN
+    } else {
+        base.powf(shininess)
+    }
 }
 
 /// saturate(x)^max(p, 0), and 0 where x is below the smallest normal f32, whatever p: nothing shines that the half vector
@@ -48,7 +52,11 @@ pub fn highlight_power_published(x: f64, shininess: f64) -> f64 {
 #[must_use]
 pub fn highlight_power(x: f64, shininess: f64) -> f64 {
     let base = saturate(x);
-    if base < SMALLEST_NORMAL_F32 { 0.0 } else { base.powf(shininess.max(0.0)) }
+    if base < SMALLEST_NORMAL_F32 {
+        0.0
+    } else {
+        base.powf(shininess.max(0.0))
+    }
 }
 
 #[cfg(test)]
@@ -57,11 +65,18 @@ mod tests {
 
     use super::{Reflectance, hardened, published};
 
-    const SHINY: Reflectance = Reflectance { diffuse: DVec3::X, specular: DVec3::Y, shininess: 16.0 };
+    const SHINY: Reflectance = Reflectance {
+        diffuse: DVec3::X,
+        specular: DVec3::Y,
+        shininess: 16.0,
+    };
 
     #[test]
     fn mirror_direction_has_the_full_highlight() {
-        assert_eq!(published(DVec3::Z, DVec3::Z, DVec3::Z, &SHINY), DVec3::new(1.0, 1.0, 0.0));
+        assert_eq!(
+            published(DVec3::Z, DVec3::Z, DVec3::Z, &SHINY),
+            DVec3::new(1.0, 1.0, 0.0)
+        );
     }
 
     #[test]
@@ -72,7 +87,10 @@ mod tests {
 
     #[test]
     fn exponent_zero_on_the_dark_side() {
-        let flat = Reflectance { shininess: 0.0, ..SHINY };
+        let flat = Reflectance {
+            shininess: 0.0,
+            ..SHINY
+        };
         assert!(published(DVec3::Z, -DVec3::Z, -DVec3::Z, &flat).is_nan());
         assert_eq!(hardened(DVec3::Z, -DVec3::Z, -DVec3::Z, &flat), DVec3::ZERO);
     }

@@ -45,9 +45,11 @@ mod tests {
     #[test]
     fn truncation_doubles_the_error() {
         let worst = |encode: fn(f64) -> u8| {
-            (0..=20_000).map(|i| f64::from(i) / 10_000.0 - 1.0).fold(0.0, |worst: f64, n| {
-                worst.max((decode_published(f64::from(encode(n))) - n).abs())
-            })
+            (0..=20_000)
+                .map(|i| f64::from(i) / 10_000.0 - 1.0)
+                .fold(0.0, |worst: f64, n| {
+                    worst.max((decode_published(f64::from(encode(n))) - n).abs())
+                })
         };
         // Half a step and a whole step of 1/127, less than the sampling step 1e-4 away from the supremum.
         assert!((worst(encode_hardened) * 127.0 - 0.5).abs() < 127.0e-4);

@@ -36,9 +36,18 @@ mod tests {
 
     #[test]
     fn the_combiner_is_the_dot_product_of_decoded_colours() {
-        assert_eq!(combiner(DVec3::new(0.5, 0.5, 1.0), DVec3::new(0.5, 0.5, 1.0)), 1.0);
-        assert_eq!(combiner(DVec3::new(0.5, 0.5, 1.0), DVec3::new(0.5, 0.5, 0.0)), 0.0);
-        assert_eq!(combiner(DVec3::new(0.75, 0.5, 1.0), DVec3::new(1.0, 0.5, 0.5)), 0.5);
+        assert_eq!(
+            combiner(DVec3::new(0.5, 0.5, 1.0), DVec3::new(0.5, 0.5, 1.0)),
+            1.0
+        );
+        assert_eq!(
+            combiner(DVec3::new(0.5, 0.5, 1.0), DVec3::new(0.5, 0.5, 0.0)),
+            0.0
+        );
+        assert_eq!(
+            combiner(DVec3::new(0.75, 0.5, 1.0), DVec3::new(1.0, 0.5, 0.5)),
+            0.5
+        );
     }
 
     #[test]

@@ -42,7 +42,10 @@ pub fn uv_determinant(uvs: [DVec2; 3]) -> f64 {
 pub fn triangle(positions: [DVec3; 3], uvs: [DVec2; 3]) -> Tangents {
     let Tangents { tangent, bitangent } = scaled_triangle(positions, uvs);
     let determinant = uv_determinant(uvs);
-    Tangents { tangent: tangent / determinant, bitangent: bitangent / determinant }
+    Tangents {
+        tangent: tangent / determinant,
+        bitangent: bitangent / determinant,
+    }
 }
 
 /// One triangle without the division: [[t₂, −t₁], [−s₂, s₁]] · (P; Q).
@@ -50,7 +53,10 @@ pub fn triangle(positions: [DVec3; 3], uvs: [DVec2; 3]) -> Tangents {
 pub fn scaled_triangle(positions: [DVec3; 3], uvs: [DVec2; 3]) -> Tangents {
     let (p, q) = (positions[1] - positions[0], positions[2] - positions[0]);
     let (e1, e2) = (uvs[1] - uvs[0], uvs[2] - uvs[0]);
-    Tangents { tangent: e2.y * p - e1.y * q, bitangent: e1.x * q - e2.x * p }
+    Tangents {
+        tangent: e2.y * p - e1.y * q,
+        bitangent: e1.x * q - e2.x * p,
+    }
 }
 
 /// Gram–Schmidt and the handedness as published: T − (N·T)·N, not normalised.
@@ -63,7 +69,11 @@ pub fn orthogonalise(normal: DVec3, sum: Tangents) -> DVec4 {
 /// (N × T)·B < 0 ? −1 : 1.
 #[must_use]
 pub fn handedness(normal: DVec3, sum: Tangents) -> f64 {
-    if normal.cross(sum.tangent).dot(sum.bitangent) < 0.0 { -1.0 } else { 1.0 }
+    if normal.cross(sum.tangent).dot(sum.bitangent) < 0.0 {
+        -1.0
+    } else {
+        1.0
+    }
 }
 
 /// Two unit vectors perpendicular to a unit normal, right-handed with it.
@@ -96,32 +106,59 @@ pub fn summed_normals(positions: &[DVec3], indices: &[u32]) -> Vec<DVec3> {
 /// The tangents of a whole mesh as published.
 #[must_use]
 pub fn published(mesh: &Triangles<'_>) -> Vec<DVec4> {
-    let sums = mesh.sums(|positions, uvs| triangle(positions, uvs));
-    mesh.normals.iter().zip(sums).map(|(&normal, sum)| orthogonalise(normal, sum)).collect()
+    let sums = mesh.sums(triangle);
+    mesh.normals
+        .iter()
+        .zip(sums)
+        .map(|(&normal, sum)| orthogonalise(normal, sum))
+        .collect()
 }
 
 /// The tangents of a whole mesh, hardened.
 #[must_use]
 pub fn hardened(mesh: &Triangles<'_>) -> Vec<DVec4> {
     let sums = mesh.weighted_sums();
-    mesh.normals.iter().zip(sums).map(|(&normal, (sum, weight))| hardened_vertex(normal, sum, weight)).collect()
+    mesh.normals
+        .iter()
+        .zip(sums)
+        .map(|(&normal, (sum, weight))| hardened_vertex(normal, sum, weight))
+        .collect()
 }
 
 /// One triangle's share in the hardened sum, and its weight (twice its area); nothing for a triangle that is left out.
 /// P and Q are edges in space, `st1` and `st2` their texture edges.
 #[must_use]
 pub fn weighted_triangle(p: DVec3, q: DVec3, st1: DVec2, st2: DVec2) -> (Tangents, f64) {
-    let nothing = (Tangents { tangent: DVec3::ZERO, bitangent: DVec3::ZERO }, 0.0);
+    let nothing = (
+        Tangents {
+            tangent: DVec3::ZERO,
+            bitangent: DVec3::ZERO,
+        },
+        0.0,
+    );
     let (first, second) = (st1.x * st2.y, st2.x * st1.y);
     let (uv_area, area) = (first - second, p.cross(q).length());
-    let raw = Tangents { tangent: st2.y * p - st1.y * q, bitangent: st1.x * q - st2.x * p };
-    let shortest = raw.tangent.abs().max_element().min(raw.bitangent.abs().max_element());
+    let raw = Tangents {
+        tangent: st2.y * p - st1.y * q,
+        bitangent: st1.x * q - st2.x * p,
+    };
+    let shortest = raw
+        .tangent
+        .abs()
+        .max_element()
+        .min(raw.bitangent.abs().max_element());
     let noise = UV_AREA_NOISE * (first.abs() + second.abs());
     if uv_area.abs() <= noise || area < SMALLEST_NORMAL_F32 || shortest < SMALLEST_NORMAL_F32 {
         return nothing;
     }
     let weight = uv_area.signum() * area;
-    (Tangents { tangent: weight * normalize(raw.tangent), bitangent: weight * normalize(raw.bitangent) }, area)
+    (
+        Tangents {
+            tangent: weight * normalize(raw.tangent),
+            bitangent: weight * normalize(raw.bitangent),
+        },
+        area,
+    )
 }
 
 /// One vertex, hardened: unit tangent perpendicular to the normal, whatever the sum. `weight` is the sum of the weights.
@@ -151,11 +188,24 @@ pub struct Triangles<'a> {
 impl Triangles<'_> {
     /// The hardened sums of every vertex and the weights that went into them.
     fn weighted_sums(&self) -> Vec<(Tangents, f64)> {
-        let mut sums = vec![(Tangents { tangent: DVec3::ZERO, bitangent: DVec3::ZERO }, 0.0); self.positions.len()];
+        let mut sums = vec![
+            (
+                Tangents {
+                    tangent: DVec3::ZERO,
+                    bitangent: DVec3::ZERO
+                },
+                0.0
+            );
+            self.positions.len()
+        ];
         for corners in self.indices.chunks_exact(3) {
             let [a, b, c] = [corners[0] as usize, corners[1] as usize, corners[2] as usize];
-            let (p, q) = (self.positions[b] - self.positions[a], self.positions[c] - self.positions[a]);
-            let (share, weight) = weighted_triangle(p, q, self.uvs[b] - self.uvs[a], self.uvs[c] - self.uvs[a]);
+            let (p, q) = (
+                self.positions[b] - self.positions[a],
+                self.positions[c] - self.positions[a],
+            );
+            let (share, weight) =
+                weighted_triangle(p, q, self.uvs[b] - self.uvs[a], self.uvs[c] - self.uvs[a]);
             for i in [a, b, c] {
                 sums[i].0.tangent += share.tangent;
                 sums[i].0.bitangent += share.bitangent;
@@ -167,7 +217,13 @@ impl Triangles<'_> {
 
     /// Sums what `of` gives for each triangle into its three vertices, in index order.
     fn sums(&self, of: impl Fn([DVec3; 3], [DVec2; 3]) -> Tangents) -> Vec<Tangents> {
-        let mut sums = vec![Tangents { tangent: DVec3::ZERO, bitangent: DVec3::ZERO }; self.positions.len()];
+        let mut sums = vec![
+            Tangents {
+                tangent: DVec3::ZERO,
+                bitangent: DVec3::ZERO
+            };
+            self.positions.len()
+        ];
         for corners in self.indices.chunks_exact(3) {
             let corner = [corners[0] as usize, corners[1] as usize, corners[2] as usize];
             let share = of(corner.map(|i| self.positions[i]), corner.map(|i| self.uvs[i]));
@@ -198,7 +254,12 @@ mod tests {
     #[test]
     fn no_texture_area_is_the_defect_and_its_cure() {
         let normals = [DVec3::Z; 3];
-        let mesh = Triangles { positions: &CORNERS, normals: &normals, uvs: &[DVec2::ZERO; 3], indices: &[0, 1, 2] };
+        let mesh = Triangles {
+            positions: &CORNERS,
+            normals: &normals,
+            uvs: &[DVec2::ZERO; 3],
+            indices: &[0, 1, 2],
+        };
         assert!(published(&mesh).iter().all(|t| !t.is_finite()));
         for tangent in hardened(&mesh) {
             assert_eq!(tangent.truncate().dot(DVec3::Z), 0.0);
@@ -210,14 +271,25 @@ mod tests {
     fn mirrored_texture_turns_the_handedness() {
         let mirrored = UVS.map(|uv| DVec2::new(-uv.x, uv.y));
         let normals = [DVec3::Z; 3];
-        let mesh = Triangles { positions: &CORNERS, normals: &normals, uvs: &mirrored, indices: &[0, 1, 2] };
+        let mesh = Triangles {
+            positions: &CORNERS,
+            normals: &normals,
+            uvs: &mirrored,
+            indices: &[0, 1, 2],
+        };
         assert!(published(&mesh).iter().all(|t| *t == (-DVec3::X).extend(-1.0)));
         assert!(hardened(&mesh).iter().all(|t| *t == (-DVec3::X).extend(-1.0)));
     }
 
     #[test]
     fn fallback_frames_are_orthonormal_everywhere() {
-        for n in [DVec3::Z, -DVec3::Z, DVec3::X, DVec3::new(-1.0, 1.0, 1.0).normalize(), DVec3::new(0.6, 0.0, -0.8)] {
+        for n in [
+            DVec3::Z,
+            -DVec3::Z,
+            DVec3::X,
+            DVec3::new(-1.0, 1.0, 1.0).normalize(),
+            DVec3::new(0.6, 0.0, -0.8),
+        ] {
             let frame = frame_from_normal(n);
             // About 6 operations on numbers below 2: 6 · 2 · 2^-53.
             assert!((frame.tangent.cross(frame.bitangent) - n).length() < 1.4e-15);

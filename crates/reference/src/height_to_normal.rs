@@ -14,7 +14,11 @@ use crate::vector::normalize;
 /// The normal from the four neighbours' heights, unit: left and right along u, before and after along v.
 #[must_use]
 pub fn normal(left: f64, right: f64, before: f64, after: f64, slope: DVec2) -> DVec3 {
-    normalize(DVec3::new(-slope.x * (right - left), -slope.y * (after - before), 1.0))
+    normalize(DVec3::new(
+        -slope.x * (right - left),
+        -slope.y * (after - before),
+        1.0,
+    ))
 }
 
 /// The normal at texel (x, y) by central differences, unit, before the codec.
@@ -39,7 +43,10 @@ mod tests {
         let ramp = HeightField::from_fn(4, 4, |x, _| x as f32 * 0.25);
         let (diagonal, slope) = (0.5_f64.sqrt(), DVec2::splat(2.0));
         // Slope 2 · 0.5 = 1: the normal is (−1, 0, 1)/√2. One division and one square root: 2 units of 2^-53.
-        assert!((central(&ramp, EdgeMode::Wrap, 1, 1, slope) - DVec3::new(-diagonal, 0.0, diagonal)).length() < 1e-15);
+        assert!(
+            (central(&ramp, EdgeMode::Wrap, 1, 1, slope) - DVec3::new(-diagonal, 0.0, diagonal)).length()
+                < 1e-15
+        );
         // Clamp halves the difference, wrap jumps back by two steps.
         let clamped = central(&ramp, EdgeMode::Clamp, 0, 1, slope);
         assert!((clamped - DVec3::new(-0.5, 0.0, 1.0).normalize()).length() < 1e-15);
@@ -52,7 +59,13 @@ mod tests {
             let phase = |x: u32| std::f64::consts::TAU * f64::from(x) / f64::from(samples);
             let field = HeightField::from_fn(samples, 4, |x, _| (0.5 + 0.5 * phase(x).sin()) as f32);
             (0..samples).fold(0.0_f64, |worst, x| {
-                let n = central(&field, EdgeMode::Wrap, x, 0, DVec2::splat(0.5 * f64::from(samples)));
+                let n = central(
+                    &field,
+                    EdgeMode::Wrap,
+                    x,
+                    0,
+                    DVec2::splat(0.5 * f64::from(samples)),
+                );
                 worst.max((-n.x / n.z - std::f64::consts::PI * phase(x).cos()).abs())
             })
         };

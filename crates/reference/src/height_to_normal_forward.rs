@@ -21,7 +21,11 @@ use crate::vector::normalize;
 /// `height_scale` is elevation in texels per byte step.
 #[must_use]
 pub fn normal_published(here: f64, next_row: f64, next_column: f64, height_scale: f64) -> DVec3 {
-    normalize(DVec3::new(height_scale * (here - next_row), height_scale * (here - next_column), 1.0))
+    normalize(DVec3::new(
+        height_scale * (here - next_row),
+        height_scale * (here - next_column),
+        1.0,
+    ))
 }
 
 /// The published normal at texel (x, y), unit, before the codec.
@@ -39,7 +43,11 @@ pub fn published(field: &HeightField, x: u32, y: u32, height_scale: f64) -> DVec
 /// that a difference of 1 stands for: scale · side.
 #[must_use]
 pub fn normal_hardened(here: f64, right: f64, after: f64, slope: DVec2) -> DVec3 {
-    normalize(DVec3::new(-slope.x * (right - here), -slope.y * (after - here), 1.0))
+    normalize(DVec3::new(
+        -slope.x * (right - here),
+        -slope.y * (after - here),
+        1.0,
+    ))
 }
 
 /// The hardened normal at texel (x, y), unit, before the codec.
@@ -68,7 +76,9 @@ mod tests {
     fn a_slope_along_u_lands_in_the_wrong_channel() {
         let diagonal = 0.5_f64.sqrt();
         // Slope 51/51 = 1: the normal is (−1, 0, 1)/√2 in some order. The heights are f32 numbers next to multiples of 0.2.
-        assert!((published(&ramp(), 1, 1, 1.0 / 51.0) - DVec3::new(0.0, -diagonal, diagonal)).length() < 1e-15);
+        assert!(
+            (published(&ramp(), 1, 1, 1.0 / 51.0) - DVec3::new(0.0, -diagonal, diagonal)).length() < 1e-15
+        );
         let good = hardened(&ramp(), EdgeMode::Clamp, 1, 1, DVec2::splat(5.0));
         assert!((good - DVec3::new(-diagonal, 0.0, diagonal)).length() < 1e-6);
     }

@@ -18,13 +18,24 @@ pub fn to_tangent(tangent: DVec3, bitangent: DVec3, normal: DVec3, light: DVec3)
 #[must_use]
 pub fn world(normal_ws: DVec3, tangent_ws: DVec4, light_ws: DVec3) -> DVec3 {
     let tangent = tangent_ws.truncate();
-    to_tangent(tangent, tangent_ws.w * normal_ws.cross(tangent), normal_ws, light_ws)
+    to_tangent(
+        tangent,
+        tangent_ws.w * normal_ws.cross(tangent),
+        normal_ws,
+        light_ws,
+    )
 }
 
 /// Object space: a light position in world space is brought to object space first, then the vector from the vertex to it
 /// is expressed in the vertex' own frame.
 #[must_use]
-pub fn object(normal_os: DVec3, tangent_os: DVec4, position_os: DVec3, light_ws: DVec3, local_from_world: DMat4) -> DVec3 {
+pub fn object(
+    normal_os: DVec3,
+    tangent_os: DVec4,
+    position_os: DVec3,
+    light_ws: DVec3,
+    local_from_world: DMat4,
+) -> DVec3 {
     let light_os = (local_from_world * light_ws.extend(1.0)).truncate();
     world(normal_os, tangent_os, light_os - position_os)
 }
@@ -37,8 +48,14 @@ mod tests {
 
     #[test]
     fn order_is_tangent_bitangent_normal() {
-        assert_eq!(world(DVec3::Z, DVec3::X.extend(1.0), DVec3::new(1.0, 2.0, 3.0)), DVec3::new(1.0, 2.0, 3.0));
-        assert_eq!(world(DVec3::Z, DVec3::X.extend(-1.0), DVec3::new(1.0, 2.0, 3.0)), DVec3::new(1.0, -2.0, 3.0));
+        assert_eq!(
+            world(DVec3::Z, DVec3::X.extend(1.0), DVec3::new(1.0, 2.0, 3.0)),
+            DVec3::new(1.0, 2.0, 3.0)
+        );
+        assert_eq!(
+            world(DVec3::Z, DVec3::X.extend(-1.0), DVec3::new(1.0, 2.0, 3.0)),
+            DVec3::new(1.0, -2.0, 3.0)
+        );
     }
 
     #[test]
@@ -47,7 +64,13 @@ mod tests {
         let shift = DVec3::new(1.0, -2.0, 0.5);
         let world_from_local = DMat4::from_mat3_translation(rotation, shift);
         let (position, light) = (DVec3::new(0.3, 0.2, 0.1), DVec3::new(3.0, 4.0, 5.0));
-        let in_object = object(DVec3::Z, DVec3::X.extend(1.0), position, light, world_from_local.inverse());
+        let in_object = object(
+            DVec3::Z,
+            DVec3::X.extend(1.0),
+            position,
+            light,
+            world_from_local.inverse(),
+        );
         let to_light = light - world_from_local.transform_point3(position);
         let in_world = world(rotation * DVec3::Z, (rotation * DVec3::X).extend(1.0), to_light);
         // About 40 operations on numbers below 16: 40 * 16 * 2^-53 = 7e-14.

@@ -32,7 +32,12 @@ pub fn published(world_from_local: DMat3, normal: DVec3, tangent: DVec4) -> Fram
     let normal = world_from_local * normal;
     let tangent_ws = world_from_local * tangent.truncate();
     let bitangent = normal.cross(tangent_ws) * tangent.w;
-    Frame { tangent: tangent_ws, bitangent, normal, handedness: tangent.w }
+    Frame {
+        tangent: tangent_ws,
+        bitangent,
+        normal,
+        handedness: tangent.w,
+    }
 }
 
 /// Hardened: the normal by the cofactor matrix, turned outward again where the transform mirrors, and the handedness
@@ -44,13 +49,22 @@ pub fn hardened(world_from_local: DMat3, normal: DVec3, tangent: DVec4) -> Frame
     let tangent_ws = world_from_local * tangent.truncate();
     let handedness = tangent.w * mirror;
     let bitangent = normal.cross(tangent_ws) * handedness;
-    Frame { tangent: tangent_ws, bitangent, normal, handedness }
+    Frame {
+        tangent: tangent_ws,
+        bitangent,
+        normal,
+        handedness,
+    }
 }
 
 /// The cofactor matrix: cof(M) (a × b) = M a × M b for all a and b, also where M has no inverse.
 #[must_use]
 pub fn cofactor(m: DMat3) -> DMat3 {
-    DMat3::from_cols(m.y_axis.cross(m.z_axis), m.z_axis.cross(m.x_axis), m.x_axis.cross(m.y_axis))
+    DMat3::from_cols(
+        m.y_axis.cross(m.z_axis),
+        m.z_axis.cross(m.x_axis),
+        m.x_axis.cross(m.y_axis),
+    )
 }
 
 #[cfg(test)]
@@ -71,7 +85,10 @@ mod tests {
     fn scale_tilts_the_published_normal_only() {
         let stretch = DMat3::from_diagonal(DVec3::new(4.0, 1.0, 1.0));
         let (normal, tangent) = (DVec3::new(1.0, 0.0, 1.0), DVec3::new(1.0, 0.0, -1.0).extend(1.0));
-        let (bad, good) = (published(stretch, normal, tangent), hardened(stretch, normal, tangent));
+        let (bad, good) = (
+            published(stretch, normal, tangent),
+            hardened(stretch, normal, tangent),
+        );
         assert_eq!(bad.normal.dot(bad.tangent), 15.0);
         assert_eq!(good.normal.dot(good.tangent), 0.0);
     }

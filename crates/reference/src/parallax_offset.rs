@@ -45,7 +45,10 @@ mod tests {
     fn shift_is_the_elevation_at_45_degrees() {
         let view = DVec3::new(1.0, 0.0, 1.0) / 2f64.sqrt();
         // z(1) = 0.5 exactly, V.x / V.z = 1 exactly.
-        assert_eq!(published(DVec2::ZERO, view, 1.0, 0.75, -0.25), DVec2::new(0.5, 0.0));
+        assert_eq!(
+            published(DVec2::ZERO, view, 1.0, 0.75, -0.25),
+            DVec2::new(0.5, 0.0)
+        );
     }
 
     #[test]

@@ -34,7 +34,10 @@ impl Ray {
     #[must_use]
     pub fn through(uv: DVec2, view_ts: DVec3, scale: f64, bias: f64) -> Option<Self> {
         let slope = view_ts.truncate() / view_ts.z;
-        let ray = Self { uv_top: uv + (scale + bias) * slope, delta: -scale * slope };
+        let ray = Self {
+            uv_top: uv + (scale + bias) * slope,
+            delta: -scale * slope,
+        };
         (view_ts.z > 0.0 && ray.uv_top.is_finite() && ray.delta.is_finite()).then_some(ray)
     }
 
@@ -78,7 +81,14 @@ pub fn first_hit(field: &HeightField, edge: EdgeMode, ray: &Ray) -> Hit {
     let mut clearance = f64::INFINITY;
     loop {
         let (entry, exit) = (walk.t, walk.exit());
-        let cell = Quadratic::new(field, edge, walk.cell, walk.origin + entry * walk.delta, walk.delta, entry);
+        let cell = Quadratic::new(
+            field,
+            edge,
+            walk.cell,
+            walk.origin + entry * walk.delta,
+            walk.delta,
+            entry,
+        );
         match cell.first_root(exit - entry) {
             Some(step) => return walk.finish(ray, Status::Hit, entry + step, clearance),
             None => clearance = clearance.min(cell.crest_gap(exit - entry)),
@@ -109,7 +119,10 @@ pub fn gradient_at(field: &HeightField, edge: EdgeMode, uv: DVec2) -> DVec2 {
     let cell = p.floor();
     let patch = Patch::new(field, edge, [cell.x as i64, cell.y as i64]);
     let f = p - cell;
-    DVec2::new(patch.along_x + patch.twist * f.y, patch.along_y + patch.twist * f.x) * size(field)
+    DVec2::new(
+        patch.along_x + patch.twist * f.y,
+        patch.along_y + patch.twist * f.x,
+    ) * size(field)
 }
 
 fn size(field: &HeightField) -> DVec2 {
@@ -128,9 +141,21 @@ struct Walk {
 impl Walk {
     fn new(field: &HeightField, ray: &Ray) -> Self {
         let (origin, delta) = (ray.uv_top * size(field) - 0.5, ray.delta * size(field));
-        let start = |p: f64, d: f64| if d < 0.0 { p.ceil() as i64 - 1 } else { p.floor() as i64 };
+        let start = |p: f64, d: f64| {
+            if d < 0.0 {
+                p.ceil() as i64 - 1
+            } else {
+                p.floor() as i64
+            }
+        };
         let cell = [start(origin.x, delta.x), start(origin.y, delta.y)];
-        Self { origin, delta, cell, t: 0.0, cells: 1 }
+        Self {
+            origin,
+            delta,
+            cell,
+            t: 0.0,
+            cells: 1,
+        }
     }
 
     /// The parameter at which the ray crosses the cell's far side on one axis, computed from the side's own number so that
@@ -157,7 +182,13 @@ impl Walk {
 
     fn finish(&self, ray: &Ray, status: Status, t: f64, clearance: f64) -> Hit {
         let t = t.min(1.0);
-        Hit { status, t, uv: ray.at(t), clearance, cells: self.cells }
+        Hit {
+            status,
+            t,
+            uv: ray.at(t),
+            clearance,
+            cells: self.cells,
+        }
     }
 }
 
@@ -173,7 +204,12 @@ impl Patch {
     fn new(field: &HeightField, edge: EdgeMode, [i, j]: [i64; 2]) -> Self {
         let h = |i, j| f64::from(field.texel(edge.resolve(i, field.width), edge.resolve(j, field.height)));
         let (h00, h10, h01, h11) = (h(i, j), h(i + 1, j), h(i, j + 1), h(i + 1, j + 1));
-        Self { corner: h00, along_x: h10 - h00, along_y: h01 - h00, twist: h11 - h10 - h01 + h00 }
+        Self {
+            corner: h00,
+            along_x: h10 - h00,
+            along_y: h01 - h00,
+            twist: h11 - h10 - h01 + h00,
+        }
     }
 
     fn height(&self, f: DVec2) -> f64 {

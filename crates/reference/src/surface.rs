@@ -13,7 +13,9 @@ use glam::{DVec2, DVec3, DVec4};
 
 use crate::texture::Texture;
 use crate::vector::{normalize, normalize_or_zero, saturate};
-use crate::{Form, blinn_phong, frame_mikktspace, light_to_tangent, parallax_offset, parallax_offset_limited};
+use crate::{
+    Form, blinn_phong, frame_mikktspace, light_to_tangent, parallax_offset, parallax_offset_limited,
+};
 
 /// What the rasteriser hands to a fragment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +62,8 @@ pub enum Relief {
         scale: f64,
         /// Elevation of h = 0, in UV units.
         bias: f64,
+        /// Scale and bias are along u; along v they are this much larger (1 where the tile is square).
+        v_factor: f64,
     },
     /// [`crate::parallax_offset_limited`].
     OffsetLimited {
@@ -67,6 +71,8 @@ pub enum Relief {
         scale: f64,
         /// Elevation of h = 0, in UV units.
         bias: f64,
+        /// Scale and bias are along u; along v they are this much larger (1 where the tile is square).
+        v_factor: f64,
     },
 }
 
@@ -117,7 +123,9 @@ pub fn shade(material: &Material, lights: &[Light], eye: DVec3, at: &Interpolant
     }
     let normal = shading_normal(material, at, uv, form);
     let base = material.ambient * albedo.truncate();
-    let color = lights.iter().fold(base, |sum, light| sum + lit(material, light, albedo.truncate(), normal, view, at, form));
+    let color = lights.iter().fold(base, |sum, light| {
+        sum + lit(material, light, albedo.truncate(), normal, view, at, form)
+    });
     Fragment::Color(color.extend(albedo.w))
 }
 
@@ -126,22 +134,35 @@ pub fn shade(material: &Material, lights: &[Light], eye: DVec3, at: &Interpolant
 pub fn shifted_uv(material: &Material, at: &Interpolants, view: DVec3, form: Form) -> DVec2 {
     let view_ts = unit(light_to_tangent::world(at.normal, at.tangent, view), form);
     let height = sample(material.height_map.as_ref(), material.edge, at.uv, DVec4::ZERO).x;
+    let in_uv = |v_factor: f64| view_ts * DVec3::new(1.0, v_factor, 1.0);
     match material.relief {
         Relief::None => at.uv,
-        Relief::Offset { form: Form::Published, scale, bias } => {
-            parallax_offset::published(at.uv, view_ts, height, scale, bias)
-        }
-        Relief::Offset { form: Form::Hardened, scale, bias } => {
-            parallax_offset::hardened(at.uv, view_ts, height, scale, bias)
-        }
-        Relief::OffsetLimited { scale, bias } => parallax_offset_limited::offset(at.uv, view_ts, height, scale, bias),
+        Relief::Offset {
+            form: Form::Published,
+            scale,
+            bias,
+            v_factor,
+        } => parallax_offset::published(at.uv, in_uv(v_factor), height, scale, bias),
+        Relief::Offset {
+            form: Form::Hardened,
+            scale,
+            bias,
+            v_factor,
+        } => parallax_offset::hardened(at.uv, in_uv(v_factor), height, scale, bias),
+        Relief::OffsetLimited {
+            scale,
+            bias,
+            v_factor,
+        } => parallax_offset_limited::offset(at.uv, in_uv(v_factor), height, scale, bias),
     }
 }
 
 /// The unit normal that the lights see.
 #[must_use]
 pub fn shading_normal(material: &Material, at: &Interpolants, uv: DVec2, form: Form) -> DVec3 {
-    let Some(map) = &material.normal_map else { return unit(at.normal, form) };
+    let Some(map) = &material.normal_map else {
+        return unit(at.normal, form);
+    };
     let texel = map.sample(material.edge, uv).truncate();
     let normal_ts = texel * material.normal_decode.x + material.normal_decode.y;
     unit(frame_mikktspace::combine(at.normal, at.tangent, normal_ts), form)
@@ -160,8 +181,14 @@ fn lit(
         Light::Directional { toward, radiance } => (toward, radiance),
         Light::Point { position, radiance } => (unit(position - at.position, form), radiance),
     };
-    let Some(specular) = material.specular else { return radiance * saturate(normal.dot(toward)) * albedo };
-    let reflectance = blinn_phong::Reflectance { diffuse: albedo, specular, shininess: material.shininess };
+    let Some(specular) = material.specular else {
+        return radiance * saturate(normal.dot(toward)) * albedo;
+    };
+    let reflectance = blinn_phong::Reflectance {
+        diffuse: albedo,
+        specular,
+        shininess: material.shininess,
+    };
     radiance
         * match form {
             Form::Published => blinn_phong::published(normal, toward, view, &reflectance),
@@ -211,7 +238,10 @@ mod tests {
         tangent: DVec4::new(1.0, 0.0, 0.0, 1.0),
         uv: DVec2::new(0.25, 0.25),
     };
-    const SUN: Light = Light::Directional { toward: DVec3::Z, radiance: DVec3::ONE };
+    const SUN: Light = Light::Directional {
+        toward: DVec3::Z,
+        radiance: DVec3::ONE,
+    };
 
     #[test]
     fn ambient_and_a_light_from_the_front() {
@@ -222,26 +252,51 @@ mod tests {
     #[test]
     fn a_normal_map_turns_the_light_away() {
         // Texel (255, 128+, 128+) decodes to n = (1, ~0, ~0): nearly along T, so the light from N barely reaches it.
-        let map = Texture { width: 1, height: 1, texels: vec![DVec4::new(1.0, 0.5, 0.5, 1.0)] };
-        let material = Material { normal_map: Some(map), ..plain() };
+        let map = Texture {
+            width: 1,
+            height: 1,
+            texels: vec![DVec4::new(1.0, 0.5, 0.5, 1.0)],
+        };
+        let material = Material {
+            normal_map: Some(map),
+            ..plain()
+        };
         let color = shade(&material, &[SUN], DVec3::Z, &FACING, Form::Hardened);
         assert_eq!(color, Fragment::Color(DVec4::new(0.25, 0.125, 0.5, 1.0)));
     }
 
     #[test]
     fn alpha_cuts() {
-        let material = Material { alpha_cutoff: Some(0.5), albedo: DVec4::new(1.0, 1.0, 1.0, 0.25), ..plain() };
-        assert_eq!(shade(&material, &[], DVec3::Z, &FACING, Form::Hardened), Fragment::Discarded);
+        let material = Material {
+            alpha_cutoff: Some(0.5),
+            albedo: DVec4::new(1.0, 1.0, 1.0, 0.25),
+            ..plain()
+        };
+        assert_eq!(
+            shade(&material, &[], DVec3::Z, &FACING, Form::Hardened),
+            Fragment::Discarded
+        );
     }
 
     #[test]
     fn relief_moves_the_lookup() {
         let height_map = Texture::from_r32float(1, 1, &[1.0]);
         let albedo_map = Texture::from_rgba8(2, 1, &[0, 0, 0, 255, 255, 255, 255, 255]);
-        let relief = Relief::OffsetLimited { scale: 0.5 * 2f64.sqrt(), bias: 0.0 };
-        let material = Material { height_map: Some(height_map), albedo_map: Some(albedo_map), relief, ..plain() };
+        let relief = Relief::OffsetLimited {
+            scale: 0.5 * 2f64.sqrt(),
+            bias: 0.0,
+            v_factor: 1.0,
+        };
+        let material = Material {
+            height_map: Some(height_map),
+            albedo_map: Some(albedo_map),
+            relief,
+            ..plain()
+        };
         // The eye at 45° along +u shifts by scale · V.x = 0.5: from the black texel's centre to the white one's.
-        let Fragment::Color(color) = shade(&material, &[], DVec3::new(1.0, 0.0, 1.0), &FACING, Form::Hardened) else {
+        let Fragment::Color(color) =
+            shade(&material, &[], DVec3::new(1.0, 0.0, 1.0), &FACING, Form::Hardened)
+        else {
             panic!("opaque material was cut");
         };
         // Weights next to 1 lose at most a few units of 2^-53.

@@ -41,15 +41,24 @@ impl Texture {
     /// From four bytes a texel (unsigned normalised).
     #[must_use]
     pub fn from_rgba8(width: u32, height: u32, bytes: &[u8]) -> Self {
-        let decode = |t: &[u8]| DVec4::from_array([t[0], t[1], t[2], t[3]].map(|byte| f64::from(byte) / 255.0));
-        Self { width, height, texels: bytes.chunks_exact(4).map(decode).collect() }
+        let decode =
+            |t: &[u8]| DVec4::from_array([t[0], t[1], t[2], t[3]].map(|byte| f64::from(byte) / 255.0));
+        Self {
+            width,
+            height,
+            texels: bytes.chunks_exact(4).map(decode).collect(),
+        }
     }
 
     /// From one float a texel, in red; green and blue are 0, alpha 1.
     #[must_use]
     pub fn from_r32float(width: u32, height: u32, values: &[f32]) -> Self {
         let decode = |&value: &f32| DVec4::new(f64::from(value), 0.0, 0.0, 1.0);
-        Self { width, height, texels: values.iter().map(decode).collect() }
+        Self {
+            width,
+            height,
+            texels: values.iter().map(decode).collect(),
+        }
     }
 
     /// The texel at an index that may lie outside, by the edge mode.
@@ -66,7 +75,10 @@ impl Texture {
         let cell = p.floor();
         let (i, j) = (cell.x as i64, cell.y as i64);
         let texels = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| self.texel(edge, i + dx, j + dy));
-        Footprint { texels, fraction: p - cell }
+        Footprint {
+            texels,
+            fraction: p - cell,
+        }
     }
 
     /// The filtered texel at a uv.
@@ -84,22 +96,35 @@ mod tests {
     use super::Texture;
 
     fn checker() -> Texture {
-        Texture::from_rgba8(2, 2, &[0, 0, 0, 255, 255, 0, 0, 255, 0, 255, 0, 255, 255, 255, 255, 255])
+        Texture::from_rgba8(
+            2,
+            2,
+            &[0, 0, 0, 255, 255, 0, 0, 255, 0, 255, 0, 255, 255, 255, 255, 255],
+        )
     }
 
     #[test]
     fn texel_centres_return_the_texel() {
-        assert_eq!(checker().sample(EdgeMode::Wrap, DVec2::new(0.75, 0.25)), DVec4::new(1.0, 0.0, 0.0, 1.0));
+        assert_eq!(
+            checker().sample(EdgeMode::Wrap, DVec2::new(0.75, 0.25)),
+            DVec4::new(1.0, 0.0, 0.0, 1.0)
+        );
     }
 
     #[test]
     fn the_middle_is_the_mean() {
-        assert_eq!(checker().sample(EdgeMode::Clamp, DVec2::splat(0.5)), DVec4::new(0.5, 0.5, 0.25, 1.0));
+        assert_eq!(
+            checker().sample(EdgeMode::Clamp, DVec2::splat(0.5)),
+            DVec4::new(0.5, 0.5, 0.25, 1.0)
+        );
     }
 
     #[test]
     fn edges_follow_the_mode() {
         let corner = |edge| checker().sample(edge, DVec2::ZERO).x;
-        assert_eq!([EdgeMode::Wrap, EdgeMode::Mirror, EdgeMode::Clamp].map(corner), [0.5, 0.0, 0.0]);
+        assert_eq!(
+            [EdgeMode::Wrap, EdgeMode::Mirror, EdgeMode::Clamp].map(corner),
+            [0.5, 0.0, 0.0]
+        );
     }
 }

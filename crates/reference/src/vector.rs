@@ -27,7 +27,11 @@ pub const SMALLEST_NORMAL_F32: f64 = f32::MIN_POSITIVE as f64;
 /// f32 machine could be held to.
 #[must_use]
 pub fn normalize_or_zero(v: DVec3) -> DVec3 {
-    if v.abs().max_element() < SMALLEST_NORMAL_F32 { DVec3::ZERO } else { normalize(v) }
+    if v.abs().max_element() < SMALLEST_NORMAL_F32 {
+        DVec3::ZERO
+    } else {
+        normalize(v)
+    }
 }
 
 /// +1 for positive numbers and both zeros, −1 for negative ones: unlike the `sign` of the shading languages it is never 0.
@@ -46,7 +50,10 @@ mod tests {
     fn directions_survive_any_scale() {
         for scale in [1e-300, 1e-45, 1.0, 3e38, 1e300] {
             // Two divisions, a square root and a three-term dot product: below 8 units of 2^-53.
-            assert!((normalize(scale * DVec3::new(1.0, 2.0, 2.0)) * 3.0 - DVec3::new(1.0, 2.0, 2.0)).length() < 4e-15);
+            assert!(
+                (normalize(scale * DVec3::new(1.0, 2.0, 2.0)) * 3.0 - DVec3::new(1.0, 2.0, 2.0)).length()
+                    < 4e-15
+            );
         }
     }
 

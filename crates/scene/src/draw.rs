@@ -248,15 +248,16 @@ fn folded(prepared: &Prepared<'_>) -> DVec4 {
     })
 }
 
-/// Scale and bias along u, then the factor by which both differ along v (tiles that are not square). Zero where there is no relief, and where heights are constant: such a surface is the
-/// polygon itself (see the schema), unless the scene pins a technique.
+/// Scale and bias along u, then the factor by which both differ along v (tiles that are not square). Zero where there is no
+/// relief, and where heights are constant: such a surface is the polygon itself (see the schema), unless the scene pins a
+/// technique.
 fn relief(prepared: &Prepared<'_>) -> Vec<f32> {
     let is_plane = prepared.facts.height.is_none_or(|height| height.is_constant())
         && prepared.material.technique == TechniquePin::Auto;
     match &prepared.material.height {
         Some(height) if !is_plane => {
             let Elevation { scale, bias } = height.elevation;
-            [scale.x, bias.x, scale.y / scale.x, 0.0]
+            [scale.x, bias.x, if scale.x == 0.0 { 1.0 } else { scale.y / scale.x }, 0.0]
                 .map(|x| x as f32)
                 .to_vec()
         }

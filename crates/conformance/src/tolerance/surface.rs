@@ -7,8 +7,8 @@ use bossage_assets::EdgeMode;
 use bossage_reference::texture::Texture;
 
 use super::formula::{
-    bitangent, blinn_phong, blinn_phong_published, combine_frame, lambert, light_to_tangent, normalise, parallax_offset,
-    parallax_offset_limited, parallax_offset_published,
+    bitangent, blinn_phong, blinn_phong_published, combine_frame, lambert, light_to_tangent, normalise,
+    parallax_offset, parallax_offset_limited, parallax_offset_published,
 };
 use super::texture::{Storage, sample};
 use crate::bounded::vector::{Vec3, add, multiply, normalize, scale, subtract};
@@ -47,7 +47,7 @@ pub(crate) struct Surface<'a> {
     pub(crate) ambient: [f32; 3],
     pub(crate) specular: Option<[f32; 3]>,
     pub(crate) shininess: f32,
-    pub(crate) elevation: [f32; 2],
+    pub(crate) elevation: [f32; 3],
     pub(crate) normal_decode: [f32; 2],
     pub(crate) alpha_cutoff: Option<f32>,
     pub(crate) edge: EdgeMode,
@@ -82,19 +82,31 @@ impl Surface<'_> {
         let (position, normal, tangent) = (inputs(at.position), inputs(at.normal), inputs(at.tangent));
         let view = self.unit(&subtract(&inputs(self.eye), &position));
         let uv = self.uv(at, &normal, &tangent, &view);
-        let albedo = multiply(&inputs(self.albedo), &self.read(self.albedo_map, &uv, [Bounded::exact(1.0); 4]));
-        let discarded = self.alpha_cutoff.map_or(Decision::Never, |cutoff| albedo[3].less(Bounded::input(cutoff)));
+        let albedo = multiply(
+            &inputs(self.albedo),
+            &self.read(self.albedo_map, &uv, [Bounded::exact(1.0); 4]),
+        );
+        let discarded = self
+            .alpha_cutoff
+            .map_or(Decision::Never, |cutoff| albedo[3].less(Bounded::input(cutoff)));
         let rgb = [albedo[0], albedo[1], albedo[2]];
         let shading_normal = self.normal(&uv, &normal, &tangent);
         let ambient = multiply(&inputs(self.ambient), &rgb);
         let [r, g, b] = self.lights.iter().fold(ambient, |sum, light| {
             add(&sum, &self.lit(light, &position, &shading_normal, &view, &rgb))
         });
-        Fragment { color: [r, g, b, albedo[3]], discarded }
+        Fragment {
+            color: [r, g, b, albedo[3]],
+            discarded,
+        }
     }
 
     fn unit(&self, v: &Vec3) -> Vec3 {
-        if self.published { normalize(v) } else { normalise(v) }
+        if self.published {
+            normalize(v)
+        } else {
+            normalise(v)
+        }
     }
 
     fn read(&self, map: Option<Map<'_>>, uv: &[Bounded; 2], otherwise: [Bounded; 4]) -> [Bounded; 4] {
@@ -109,8 +121,9 @@ impl Surface<'_> {
         let frame = ([tangent[0], tangent[1], tangent[2]], bitangent(normal, tangent));
         let view_ts = self.unit(&light_to_tangent(&frame.0, &frame.1, normal, view));
         let [height, ..] = self.read(self.height_map, &uv, [Bounded::exact(0.0); 4]);
-        let [height_scale, height_bias] = inputs(self.elevation);
+        let [height_scale, height_bias, v_factor] = inputs(self.elevation);
         let z = height_scale * height + height_bias;
+        let view_ts = [view_ts[0], view_ts[1] * v_factor, view_ts[2]];
         match (self.relief, self.published) {
             (Relief::Offset, false) => parallax_offset(&uv, z, &view_ts),
             (Relief::Offset, true) => parallax_offset_published(&uv, z, &view_ts),
@@ -119,24 +132,41 @@ impl Surface<'_> {
     }
 
     fn normal(&self, uv: &[Bounded; 2], normal: &Vec3, tangent: &[Bounded; 4]) -> Vec3 {
-        let Some(map) = self.normal_map else { return self.unit(normal) };
+        let Some(map) = self.normal_map else {
+            return self.unit(normal);
+        };
         let [x, y, z, _] = sample(map.texture, map.storage, self.edge, uv);
         let [decode_scale, decode_bias] = inputs(self.normal_decode);
         let normal_ts = [x, y, z].map(|c| c * decode_scale + decode_bias);
         let tangent_dir = [tangent[0], tangent[1], tangent[2]];
-        self.unit(&combine_frame(&tangent_dir, &bitangent(normal, tangent), normal, &normal_ts))
+        self.unit(&combine_frame(
+            &tangent_dir,
+            &bitangent(normal, tangent),
+            normal,
+            &normal_ts,
+        ))
     }
 
     fn lit(&self, light: &Light, position: &Vec3, normal: &Vec3, view: &Vec3, albedo: &Vec3) -> Vec3 {
         let vector = inputs([light.vector[0], light.vector[1], light.vector[2]]);
         // A single directional light is used as it is; a loop over lights normalises each. The second is the wider bound.
-        let toward = self.unit(&subtract(&vector, &scale(Bounded::input(light.vector[3]), position)));
+        let toward = self.unit(&subtract(
+            &vector,
+            &scale(Bounded::input(light.vector[3]), position),
+        ));
         let radiance = inputs(light.radiance);
         let Some(specular) = self.specular else {
             return multiply(&radiance, &scale(lambert(normal, &toward), albedo));
         };
         let (specular, shininess) = (inputs(specular), Bounded::input(self.shininess));
-        let of = if self.published { blinn_phong_published } else { blinn_phong };
-        multiply(&radiance, &of(normal, &toward, view, albedo, &specular, shininess))
+        let of = if self.published {
+            blinn_phong_published
+        } else {
+            blinn_phong
+        };
+        multiply(
+            &radiance,
+            &of(normal, &toward, view, albedo, &specular, shininess),
+        )
     }
 }

@@ -39,7 +39,11 @@ fn straight_down_reads_the_height() {
     let field = waves(16);
     for i in 0..50 {
         let uv = DVec2::new(f64::from(i) * 0.037, f64::from(i) * 0.061);
-        let hit = first_hit(&field, EdgeMode::Wrap, &Ray::through(uv, DVec3::Z, 0.05, -0.02).unwrap());
+        let hit = first_hit(
+            &field,
+            EdgeMode::Wrap,
+            &Ray::through(uv, DVec3::Z, 0.05, -0.02).unwrap(),
+        );
         assert_eq!(hit.uv, uv);
         assert!((hit.t - (1.0 - height_at(&field, EdgeMode::Wrap, uv))).abs() < 1e-14);
     }
@@ -49,11 +53,18 @@ fn straight_down_reads_the_height() {
 fn brute_force(field: &HeightField, edge: EdgeMode, ray: &Ray) -> f64 {
     const STEPS: u32 = 200_000;
     let below = |t: f64| height_at(field, edge, ray.at(t)) >= 1.0 - t;
-    let hit = (0..=STEPS).map(|i| f64::from(i) / f64::from(STEPS)).find(|&t| below(t)).expect("heights are ≥ 0");
+    let hit = (0..=STEPS)
+        .map(|i| f64::from(i) / f64::from(STEPS))
+        .find(|&t| below(t))
+        .expect("heights are ≥ 0");
     let (mut low, mut high) = ((hit - 1.0 / f64::from(STEPS)).max(0.0), hit);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if below(middle) { high = middle } else { low = middle }
+        if below(middle) {
+            high = middle
+        } else {
+            low = middle
+        }
     }
     high
 }
@@ -68,7 +79,11 @@ fn agrees_with_brute_force() {
             let hit = first_hit(&field, edge, &ray);
             let slow = brute_force(&field, edge, &ray);
             // The march may miss a crest that the ray cleared by less than one step's worth of height; none here does.
-            assert!((hit.t - slow).abs() < 1e-12, "{edge:?} {degrees}: {} against {slow}", hit.t);
+            assert!(
+                (hit.t - slow).abs() < 1e-12,
+                "{edge:?} {degrees}: {} against {slow}",
+                hit.t
+            );
             assert!((height_at(&field, edge, hit.uv) - (1.0 - hit.t)).abs() < 1e-12);
         }
     }
@@ -87,7 +102,13 @@ fn rays_along_texel_lines_and_corners_terminate() {
 
 #[test]
 fn a_view_from_the_side_or_below_has_no_ray() {
-    for view_ts in [DVec3::X, -DVec3::Z, DVec3::new(1.0, 0.0, -1e-9), DVec3::NAN, DVec3::new(1.0, 0.0, 5e-324)] {
+    for view_ts in [
+        DVec3::X,
+        -DVec3::Z,
+        DVec3::new(1.0, 0.0, -1e-9),
+        DVec3::NAN,
+        DVec3::new(1.0, 0.0, 5e-324),
+    ] {
         assert!(Ray::through(DVec2::ZERO, view_ts, 0.05, -0.05).is_none());
     }
 }
@@ -97,7 +118,10 @@ fn a_spike_between_samples_is_never_stepped_over() {
     // One texel high, all others at the bottom: a grazing ray must meet the pyramid, wherever a fixed march would look.
     let field = HeightField::from_fn(64, 64, |x, y| if (x, y) == (32, 32) { 1.0 } else { 0.0 });
     let spike_uv = DVec2::splat(32.5 / 64.0);
-    let ray = Ray { uv_top: spike_uv - DVec2::new(0.3, 0.0), delta: DVec2::new(1.0, 0.0) };
+    let ray = Ray {
+        uv_top: spike_uv - DVec2::new(0.3, 0.0),
+        delta: DVec2::new(1.0, 0.0),
+    };
     let hit = first_hit(&field, EdgeMode::Clamp, &ray);
     // On the rising flank 64 (u − u₁) = 1 − t with u = u_s − 0.3 + t and u₁ = u_s − 1/64: 65 t = 64·0.3, t = 19.2/65.
     assert!((hit.t - 19.2 / 65.0).abs() < 1e-13);

@@ -35,11 +35,24 @@ fn decoded(draw: &Draw, name: &str) -> Option<(Texture, Storage)> {
     let level = draw.textures.get(name)?.levels.first()?;
     let (width, height) = (level.width, level.height);
     Some(match &level.texels {
-        Texels::Rgba8Unorm(texels) => (Texture::from_rgba8(width, height, texels.as_flattened()), Storage::Unorm8),
+        Texels::Rgba8Unorm(texels) => (
+            Texture::from_rgba8(width, height, texels.as_flattened()),
+            Storage::Unorm8,
+        ),
         Texels::R32Float(texels) => (Texture::from_r32float(width, height, texels), Storage::Float32),
         Texels::Rgba32Float(texels) => {
-            let texels = texels.iter().map(|t| DVec4::from_array(t.map(f64::from))).collect();
-            (Texture { width, height, texels }, Storage::Float32)
+            let texels = texels
+                .iter()
+                .map(|t| DVec4::from_array(t.map(f64::from)))
+                .collect();
+            (
+                Texture {
+                    width,
+                    height,
+                    texels,
+                },
+                Storage::Float32,
+            )
         }
     })
 }
@@ -51,17 +64,27 @@ fn uniform<const N: usize>(draw: &Draw, name: &str) -> [f32; N] {
 }
 
 fn lights(draw: &Draw) -> Vec<Light> {
-    let light = |v: &[f32]| Light { vector: [v[0], v[1], v[2], v[3]], radiance: [v[4], v[5], v[6]] };
+    let light = |v: &[f32]| Light {
+        vector: [v[0], v[1], v[2], v[3]],
+        radiance: [v[4], v[5], v[6]],
+    };
     match draw.features.lights {
         Lights::None => Vec::new(),
         Lights::Directional | Lights::Point => {
             let w = f32::from(u8::from(draw.features.lights == Lights::Point));
             let [x, y, z] = uniform(draw, "light.vector");
-            vec![Light { vector: [x, y, z, w], radiance: uniform(draw, "light.radiance") }]
+            vec![Light {
+                vector: [x, y, z, w],
+                radiance: uniform(draw, "light.radiance"),
+            }]
         }
         Lights::Many => {
             let [count] = uniform(draw, "lights.count");
-            let items = draw.uniforms.get("lights.items").map(Vec::as_slice).unwrap_or_default();
+            let items = draw
+                .uniforms
+                .get("lights.items")
+                .map(Vec::as_slice)
+                .unwrap_or_default();
             items.chunks_exact(8).take(count as usize).map(light).collect()
         }
     }
@@ -70,7 +93,12 @@ fn lights(draw: &Draw) -> Vec<Light> {
 /// The bounded surface.
 pub(super) fn bounded<'a>(draw: &Draw, maps: &'a Maps) -> Surface<'a> {
     let features = draw.features.canonical();
-    let map = |map: &'a Option<(Texture, Storage)>| map.as_ref().map(|(texture, storage)| Map { texture, storage: *storage });
+    let map = |map: &'a Option<(Texture, Storage)>| {
+        map.as_ref().map(|(texture, storage)| Map {
+            texture,
+            storage: *storage,
+        })
+    };
     let [shininess] = uniform(draw, "material.shininess");
     let [alpha_cutoff] = uniform(draw, "material.alpha_cutoff");
     Surface {
@@ -100,7 +128,7 @@ pub(super) fn bounded<'a>(draw: &Draw, maps: &'a Maps) -> Surface<'a> {
 pub(super) fn material(draw: &Draw, maps: &Maps) -> Material {
     let surface = bounded(draw, maps);
     let texture = |map: &Option<(Texture, Storage)>| map.as_ref().map(|(texture, _)| texture.clone());
-    let [scale, bias] = surface.elevation.map(f64::from);
+    let [scale, bias, v_factor] = surface.elevation.map(f64::from);
     Material {
         albedo: DVec4::from_array(surface.albedo.map(f64::from)),
         albedo_map: texture(&maps.albedo),
@@ -109,8 +137,17 @@ pub(super) fn material(draw: &Draw, maps: &Maps) -> Material {
         height_map: texture(&maps.height),
         relief: match surface.relief {
             Relief::None => reference::Relief::None,
-            Relief::Offset => reference::Relief::Offset { form: form(draw), scale, bias },
-            Relief::OffsetLimited => reference::Relief::OffsetLimited { scale, bias },
+            Relief::Offset => reference::Relief::Offset {
+                form: form(draw),
+                scale,
+                bias,
+                v_factor,
+            },
+            Relief::OffsetLimited => reference::Relief::OffsetLimited {
+                scale,
+                bias,
+                v_factor,
+            },
         },
         ambient: vector(surface.ambient),
         specular: surface.specular.map(vector),
@@ -123,14 +160,27 @@ pub(super) fn material(draw: &Draw, maps: &Maps) -> Material {
 /// Eye, lights and form for the f64 surface.
 pub(super) fn view(draw: &Draw) -> (DVec3, Vec<TruthLight>, TruthForm) {
     let light = |light: Light| {
-        let (place, radiance) = (vector([light.vector[0], light.vector[1], light.vector[2]]), vector(light.radiance));
+        let (place, radiance) = (
+            vector([light.vector[0], light.vector[1], light.vector[2]]),
+            vector(light.radiance),
+        );
         if light.vector[3] == 0.0 {
-            TruthLight::Directional { toward: place, radiance }
+            TruthLight::Directional {
+                toward: place,
+                radiance,
+            }
         } else {
-            TruthLight::Point { position: place, radiance }
+            TruthLight::Point {
+                position: place,
+                radiance,
+            }
         }
     };
-    (vector(uniform(draw, "view.eye")), lights(draw).into_iter().map(light).collect(), form(draw))
+    (
+        vector(uniform(draw, "view.eye")),
+        lights(draw).into_iter().map(light).collect(),
+        form(draw),
+    )
 }
 
 /// The interpolants in f64.
