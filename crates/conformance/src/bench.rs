@@ -24,7 +24,12 @@ impl<'a> Bench<'a> {
     /// A bench with nothing prepared yet.
     #[must_use]
     pub fn new(device: &'a Device, route: Route, library: &'a Library) -> Self {
-        Self { device, route, library, prepared: Mutex::default() }
+        Self {
+            device,
+            route,
+            library,
+            prepared: Mutex::default(),
+        }
     }
 
     /// The module of that key, prepared once.

@@ -40,25 +40,49 @@ pub struct Bounded {
 
 impl Bounded {
     /// A number of which the rules say nothing.
-    pub const OPEN: Self = Self { value: f64::NAN, error: f64::INFINITY, forked: false };
+    pub const OPEN: Self = Self {
+        value: f64::NAN,
+        error: f64::INFINITY,
+        forked: false,
+    };
 
     /// A constant of the shader's text that f32 holds exactly.
     #[must_use]
     pub const fn exact(value: f32) -> Self {
-        Self { value: value as f64, error: 0.0, forked: false }
+        Self {
+            value: value as f64,
+            error: 0.0,
+            forked: false,
+        }
     }
 
     /// An input: exact, except that a subnormal may be taken for zero.
     #[must_use]
     pub fn input(value: f32) -> Self {
-        let error = if value.is_subnormal() { f64::from(value.abs()) } else { 0.0 };
-        Self { value: f64::from(value), error, forked: false }
+        let error = if value.is_subnormal() {
+            f64::from(value.abs())
+        } else {
+            0.0
+        };
+        Self {
+            value: f64::from(value),
+            error,
+            forked: false,
+        }
     }
 
     /// A number known to within an error, such as an interpolated value or a filtered texel.
     #[must_use]
     pub fn within(value: f64, error: f64) -> Self {
-        if value.is_finite() && error >= 0.0 { Self { value, error, forked: false } } else { Self::OPEN }
+        if value.is_finite() && error >= 0.0 {
+            Self {
+                value,
+                error,
+                forked: false,
+            }
+        } else {
+            Self::OPEN
+        }
     }
 
     /// The value and the interval [low, high] around it.
@@ -76,19 +100,31 @@ impl Bounded {
     /// The smallest value that an implementation may have.
     #[must_use]
     pub fn low(&self) -> f64 {
-        if self.is_decided() { self.value - self.error } else { f64::NEG_INFINITY }
+        if self.is_decided() {
+            self.value - self.error
+        } else {
+            f64::NEG_INFINITY
+        }
     }
 
     /// The largest value that an implementation may have.
     #[must_use]
     pub fn high(&self) -> f64 {
-        if self.is_decided() { self.value + self.error } else { f64::INFINITY }
+        if self.is_decided() {
+            self.value + self.error
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// The largest magnitude that an implementation may have.
     #[must_use]
     pub fn magnitude(&self) -> f64 {
-        if self.is_decided() { self.value.abs() + self.error } else { f64::INFINITY }
+        if self.is_decided() {
+            self.value.abs() + self.error
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// Whether a computed value is allowed.
@@ -102,19 +138,35 @@ impl Bounded {
     pub(crate) fn rounded(self, ulps: f64) -> Self {
         let magnitude = self.magnitude();
         if !self.value.is_finite() || magnitude.is_nan() || magnitude > MAX {
-            return Self { forked: self.forked, ..Self::OPEN };
+            return Self {
+                forked: self.forked,
+                ..Self::OPEN
+            };
         }
         let error = self.error + ulps * ulp(magnitude);
         if magnitude + ulps * ulp(magnitude) > MAX {
-            return Self { forked: self.forked, ..Self::OPEN };
+            return Self {
+                forked: self.forked,
+                ..Self::OPEN
+            };
         }
         let may_flush = self.value.abs() - error < MIN_NORMAL && magnitude > 0.0;
-        Self { error: if may_flush { error + MIN_NORMAL.min(magnitude + error) } else { error }, ..self }
+        Self {
+            error: if may_flush {
+                error + MIN_NORMAL.min(magnitude + error)
+            } else {
+                error
+            },
+            ..self
+        }
     }
 
     /// Joins the marks of two operands into a result.
     pub(crate) fn marked(self, others: &[Self]) -> Self {
-        Self { forked: self.forked || others.iter().any(|other| other.forked), ..self }
+        Self {
+            forked: self.forked || others.iter().any(|other| other.forked),
+            ..self
+        }
     }
 }
 

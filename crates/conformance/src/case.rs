@@ -44,15 +44,31 @@ impl Outcome {
             _ if comparison.outputs == 0 => (Verdict::Fail, Some("nothing was compared".to_owned())),
             Some(refusal) => {
                 let (refused, outputs) = (comparison.refused, comparison.outputs);
-                (Verdict::Fail, Some(format!("{refused} of {outputs} outputs refused; the worst: {}", refusal.reason())))
+                (
+                    Verdict::Fail,
+                    Some(format!(
+                        "{refused} of {outputs} outputs refused; the worst: {}",
+                        refusal.reason()
+                    )),
+                )
             }
             None if comparison.undecided_share() > undecided_limit => {
                 let (share, limit) = (100.0 * comparison.undecided_share(), 100.0 * undecided_limit);
-                (Verdict::Warn, Some(format!("{share:.2} % of the outputs are undecided, more than {limit:.2} %")))
+                (
+                    Verdict::Warn,
+                    Some(format!(
+                        "{share:.2} % of the outputs are undecided, more than {limit:.2} %"
+                    )),
+                )
             }
             None => (Verdict::Pass, None),
         };
-        Self { inputs, comparison, verdict, reason }
+        Self {
+            inputs,
+            comparison,
+            verdict,
+            reason,
+        }
     }
 
     /// A failure without a comparison: the shader could not be made or run.
@@ -68,7 +84,12 @@ impl Outcome {
     }
 
     fn without_comparison(verdict: Verdict, reason: impl Into<String>) -> Self {
-        Self { inputs: 0, comparison: Comparison::default(), verdict, reason: Some(reason.into()) }
+        Self {
+            inputs: 0,
+            comparison: Comparison::default(),
+            verdict,
+            reason: Some(reason.into()),
+        }
     }
 
     /// The entry of the report.

@@ -65,9 +65,14 @@ mod tests {
 
     #[test]
     fn parameters_are_sorted_and_the_form_is_optional() {
-        let id = CaseId::new("dot3", Some("published"), "random").with("seed", 7).with("n", 100);
+        let id = CaseId::new("dot3", Some("published"), "random")
+            .with("seed", 7)
+            .with("n", 100);
         assert_eq!(id.to_string(), "dot3/published/random:n=100;seed=7");
-        assert_eq!(CaseId::new("frame_mikktspace", None, "edge").to_string(), "frame_mikktspace/edge");
+        assert_eq!(
+            CaseId::new("frame_mikktspace", None, "edge").to_string(),
+            "frame_mikktspace/edge"
+        );
     }
 
     #[test]

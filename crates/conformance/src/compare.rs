@@ -83,12 +83,21 @@ fn numbers<S: serde::Serializer>(values: &[f32], serializer: S) -> Result<S::Ok,
 impl fmt::Display for Worst {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "input     {:?}", self.input)?;
-        let got = if self.written { self.got.to_string() } else { "never written".to_owned() };
+        let got = if self.written {
+            self.got.to_string()
+        } else {
+            "never written".to_owned()
+        };
         writeln!(f, "output    number {}: {got}", self.output)?;
         writeln!(f, "truth     {}", self.truth)?;
         writeln!(f, "allowed   {} to {}", self.interval[0], self.interval[1])?;
         let or_none = |x: Option<f64>| x.map_or("not a number".to_owned(), |x| format!("{x:.4e}"));
-        write!(f, "error     {} ULP, {} absolute", or_none(self.ulp), or_none(self.abs))
+        write!(
+            f,
+            "error     {} ULP, {} absolute",
+            or_none(self.ulp),
+            or_none(self.abs)
+        )
     }
 }
 
@@ -115,7 +124,10 @@ impl Comparison {
     /// Outputs that a property judged as a whole, without intervals.
     #[must_use]
     pub fn of_property(outputs: usize) -> Self {
-        Self { outputs, ..Self::default() }
+        Self {
+            outputs,
+            ..Self::default()
+        }
     }
 
     /// Compares the outputs of one item.
@@ -159,7 +171,11 @@ impl Comparison {
     /// The share of outputs on which the rules say nothing or allow two results.
     #[must_use]
     pub fn undecided_share(&self) -> f64 {
-        if self.outputs == 0 { 0.0 } else { (self.undecided + self.forked) as f64 / self.outputs as f64 }
+        if self.outputs == 0 {
+            0.0
+        } else {
+            (self.undecided + self.forked) as f64 / self.outputs as f64
+        }
     }
 }
 
@@ -167,7 +183,8 @@ impl Comparison {
 fn oracles_agree(expected: &Expected) -> bool {
     // Some tens of operations at 2^-53 each, relative to the value.
     let rounding = 64.0 * f64::EPSILON * expected.bound.value.abs() + f64::MIN_POSITIVE;
-    !expected.bound.is_decided() || (expected.truth - expected.bound.value).abs() <= expected.bound.error + rounding
+    !expected.bound.is_decided()
+        || (expected.truth - expected.bound.value).abs() <= expected.bound.error + rounding
 }
 
 fn refusal(got: f32, expected: &Expected) -> Option<Refusal> {
@@ -180,7 +197,11 @@ fn refusal(got: f32, expected: &Expected) -> Option<Refusal> {
     if !expected.bound.is_decided() || expected.bound.contains(f64::from(got)) {
         return None;
     }
-    Some(if got.is_finite() { Refusal::Outside } else { Refusal::NotFinite })
+    Some(if got.is_finite() {
+        Refusal::Outside
+    } else {
+        Refusal::NotFinite
+    })
 }
 
 /// The order of "worse": refusals first, then the share of the allowed error that was used, then ULPs.
@@ -228,7 +249,10 @@ mod tests {
     use crate::bounded::Bounded;
 
     fn expect(truth: f64, error: f64) -> Expected {
-        Expected { truth, bound: Bounded::within(truth, error) }
+        Expected {
+            truth,
+            bound: Bounded::within(truth, error),
+        }
     }
 
     fn compare(got: f32, expected: Expected) -> Comparison {
@@ -244,12 +268,18 @@ mod tests {
         let outside = compare(1.0f32.next_up().next_up(), expect(1.0, error));
         assert_eq!((outside.refused, outside.refusal), (1, Some(Refusal::Outside)));
         let worst = outside.worst.unwrap();
-        assert_eq!((worst.ulp, worst.of_bound, worst.input), (Some(2.0), Some(2.0), vec![7.0]));
+        assert_eq!(
+            (worst.ulp, worst.of_bound, worst.input),
+            (Some(2.0), Some(2.0), vec![7.0])
+        );
     }
 
     #[test]
     fn unwritten_is_refused_even_where_the_rules_say_nothing() {
-        let open = Expected { truth: f64::NAN, bound: Bounded::OPEN };
+        let open = Expected {
+            truth: f64::NAN,
+            bound: Bounded::OPEN,
+        };
         assert_eq!(compare(SENTINEL, open).refusal, Some(Refusal::Unwritten));
         let other = compare(f32::NAN, open);
         assert_eq!((other.refused, other.undecided), (0, 1));
@@ -257,13 +287,22 @@ mod tests {
 
     #[test]
     fn nan_is_refused_where_the_interval_is_finite() {
-        assert_eq!(compare(f32::NAN, expect(0.0, 1.0)).refusal, Some(Refusal::NotFinite));
-        assert_eq!(compare(f32::INFINITY, expect(0.0, 1.0)).refusal, Some(Refusal::NotFinite));
+        assert_eq!(
+            compare(f32::NAN, expect(0.0, 1.0)).refusal,
+            Some(Refusal::NotFinite)
+        );
+        assert_eq!(
+            compare(f32::INFINITY, expect(0.0, 1.0)).refusal,
+            Some(Refusal::NotFinite)
+        );
     }
 
     #[test]
     fn disagreeing_oracles_are_refused_although_the_output_is_in_the_interval() {
-        let expected = Expected { truth: 2.0, bound: Bounded::within(1.0, 0.1) };
+        let expected = Expected {
+            truth: 2.0,
+            bound: Bounded::within(1.0, 0.1),
+        };
         assert_eq!(compare(1.0, expected).refusal, Some(Refusal::OraclesDisagree));
     }
 
@@ -271,7 +310,10 @@ mod tests {
     fn too_few_outputs_are_refused() {
         let mut comparison = Comparison::default();
         comparison.item(&[], &[1.0], &[expect(1.0, 0.0), expect(1.0, 0.0)]);
-        assert_eq!((comparison.refused, comparison.refusal), (1, Some(Refusal::Unwritten)));
+        assert_eq!(
+            (comparison.refused, comparison.refusal),
+            (1, Some(Refusal::Unwritten))
+        );
     }
 
     #[test]

@@ -56,7 +56,9 @@ impl Environment {
         Self {
             bossage: env!("CARGO_PKG_VERSION").to_owned(),
             platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
-            cpu: adapters.first().map_or_else(|| "unknown".to_owned(), |adapter| adapter.cpu.clone()),
+            cpu: adapters
+                .first()
+                .map_or_else(|| "unknown".to_owned(), |adapter| adapter.cpu.clone()),
             adapters: adapters.iter().map(Adapter::of).collect(),
             versions: versions(LOCK),
             time: jiff::Timestamp::now().strftime("%Y-%m-%dT%H:%M:%SZ").to_string(),
@@ -72,10 +74,21 @@ impl Environment {
             ("platform".to_owned(), self.platform.clone()),
             ("CPU".to_owned(), self.cpu.clone()),
         ];
-        rows.extend(self.adapters.iter().map(|adapter| (format!("adapter {}", adapter.name), adapter.describe())));
-        rows.extend(self.versions.iter().map(|(name, version)| (name.clone(), version.clone())));
+        rows.extend(
+            self.adapters
+                .iter()
+                .map(|adapter| (format!("adapter {}", adapter.name), adapter.describe())),
+        );
+        rows.extend(
+            self.versions
+                .iter()
+                .map(|(name, version)| (name.clone(), version.clone())),
+        );
         rows.push(("seed".to_owned(), self.seed.to_string()));
-        rows.push(("inputs".to_owned(), if self.full { "full run" } else { "ordinary run" }.to_owned()));
+        rows.push((
+            "inputs".to_owned(),
+            if self.full { "full run" } else { "ordinary run" }.to_owned(),
+        ));
         rows.extend(self.shard.iter().map(|shard| ("part".to_owned(), shard.clone())));
         rows.push(("time".to_owned(), self.time.clone()));
         rows
@@ -94,7 +107,11 @@ impl Adapter {
     }
 
     fn describe(&self) -> String {
-        let llvm = self.llvm.as_ref().map(|version| format!(", LLVM {version}")).unwrap_or_default();
+        let llvm = self
+            .llvm
+            .as_ref()
+            .map(|version| format!(", LLVM {version}"))
+            .unwrap_or_default();
         format!("{}, {}, {}{llvm}", self.kind, self.backend, self.driver)
     }
 }
@@ -110,7 +127,8 @@ fn versions(lock: &str) -> BTreeMap<String, String> {
     for line in lock.lines() {
         if let Some(name) = value(line, "name") {
             package = name;
-        } else if let Some(version) = value(line, "version").filter(|_| PACKAGES.contains(&package.as_str())) {
+        } else if let Some(version) = value(line, "version").filter(|_| PACKAGES.contains(&package.as_str()))
+        {
             found.insert(package.clone(), version);
         }
     }

@@ -61,7 +61,11 @@ impl Selection {
     }
 
     fn scope(&self) -> Scope {
-        Scope { full: self.full, seed: self.seed.unwrap_or(random::SEED), scenes: self.scenes.clone() }
+        Scope {
+            full: self.full,
+            seed: self.seed.unwrap_or(random::SEED),
+            scenes: self.scenes.clone(),
+        }
     }
 
     /// The cases that this selects.
@@ -74,7 +78,10 @@ impl Selection {
         let filter = self.filter.as_deref().unwrap_or_default();
         let matching: Vec<_> = all.into_iter().filter(|case| case.id().matches(filter)).collect();
         if matching.is_empty() {
-            return Err(Error::NoSuchCase { filter: filter.to_owned(), known });
+            return Err(Error::NoSuchCase {
+                filter: filter.to_owned(),
+                known,
+            });
         }
         sharded(matching, self.shard)
     }
@@ -88,13 +95,23 @@ impl Selection {
         if all.is_empty() {
             return Err(Error::Adapter(bossage_runner::Error::NoAdapter));
         }
-        let missing = self.adapters.iter().find(|name| !all.iter().any(|a| AdapterSelector::named(name).matches(a)));
+        let missing = self
+            .adapters
+            .iter()
+            .find(|name| !all.iter().any(|a| AdapterSelector::named(name).matches(a)));
         if let Some(name) = missing {
             let found = all.iter().map(|adapter| adapter.name.clone()).collect();
-            return Err(Error::Adapter(bossage_runner::Error::NoSuchAdapter { wanted: name.clone(), found }));
+            return Err(Error::Adapter(bossage_runner::Error::NoSuchAdapter {
+                wanted: name.clone(),
+                found,
+            }));
         }
         let wanted = |info: &AdapterInfo| {
-            self.adapters.is_empty() || self.adapters.iter().any(|name| AdapterSelector::named(name).matches(info))
+            self.adapters.is_empty()
+                || self
+                    .adapters
+                    .iter()
+                    .any(|name| AdapterSelector::named(name).matches(info))
         };
         Ok(all.into_iter().filter(wanted).collect())
     }
@@ -102,7 +119,9 @@ impl Selection {
 
 /// Every n-th case, starting with the i-th: neighbours, which cost about the same, go to different parts.
 fn sharded<T>(cases: Vec<T>, shard: Option<(usize, usize)>) -> Result<Vec<T>, Error> {
-    let Some((index, count)) = shard else { return Ok(cases) };
+    let Some((index, count)) = shard else {
+        return Ok(cases);
+    };
     if index == 0 || index > count {
         return Err(Error::BadShard { index, count });
     }
@@ -121,8 +140,10 @@ pub fn run(selection: &Selection, library: &Library, progress: &mut dyn Progress
         .iter()
         .map(|info| Device::open(&AdapterSelector::named(&info.name)).map_err(Error::Adapter))
         .collect::<Result<Vec<_>, _>>()?;
-    let benches: Vec<Bench<'_>> =
-        devices.iter().flat_map(|device| routes.iter().map(|route| Bench::new(device, *route, library))).collect();
+    let benches: Vec<Bench<'_>> = devices
+        .iter()
+        .flat_map(|device| routes.iter().map(|route| Bench::new(device, *route, library)))
+        .collect();
     let mut results = Vec::new();
     // Case by case, not bench by bench: what a case expects is computed once, and then dropped with the case.
     for case in cases {
@@ -153,30 +174,53 @@ mod tests {
     #[test]
     fn shards_are_a_partition() {
         let all: Vec<usize> = (0..10).collect();
-        let mut joined: Vec<usize> = (1..=3).flat_map(|i| sharded(all.clone(), Some((i, 3))).unwrap()).collect();
+        let mut joined: Vec<usize> = (1..=3)
+            .flat_map(|i| sharded(all.clone(), Some((i, 3))).unwrap())
+            .collect();
         joined.sort_unstable();
         assert_eq!(joined, all);
-        assert!(matches!(sharded(all.clone(), Some((0, 3))), Err(Error::BadShard { .. })));
+        assert!(matches!(
+            sharded(all.clone(), Some((0, 3))),
+            Err(Error::BadShard { .. })
+        ));
         assert!(matches!(sharded(all, Some((4, 3))), Err(Error::BadShard { .. })));
     }
 
     #[test]
     fn a_filter_that_finds_nothing_is_an_error() {
-        let selection = Selection { filter: Some("dot33".to_owned()), ..Selection::default() };
+        let selection = Selection {
+            filter: Some("dot33".to_owned()),
+            ..Selection::default()
+        };
         assert!(matches!(selection.cases(), Err(Error::NoSuchCase { .. })));
     }
 
     #[test]
     fn a_full_name_selects_one_case() {
         let name = "parallax_offset/hardened/edge";
-        let selection = Selection { filter: Some(name.to_owned()), ..Selection::default() };
-        let names: Vec<String> = selection.cases().unwrap().iter().map(|case| case.id().to_string()).collect();
+        let selection = Selection {
+            filter: Some(name.to_owned()),
+            ..Selection::default()
+        };
+        let names: Vec<String> = selection
+            .cases()
+            .unwrap()
+            .iter()
+            .map(|case| case.id().to_string())
+            .collect();
         assert_eq!(names, [name]);
     }
 
     #[test]
     fn no_route_given_means_all() {
         assert_eq!(Selection::default().routes(), Route::ALL);
-        assert_eq!(Selection { routes: vec![Route::Spirv], ..Selection::default() }.routes(), [Route::Spirv]);
+        assert_eq!(
+            Selection {
+                routes: vec![Route::Spirv],
+                ..Selection::default()
+            }
+            .routes(),
+            [Route::Spirv]
+        );
     }
 }

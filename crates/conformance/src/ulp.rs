@@ -15,7 +15,11 @@ pub const MAX: f64 = f32::MAX as f64;
 pub fn ulp(x: f64) -> f64 {
     let magnitude = x.abs();
     if magnitude.is_nan() || magnitude > 2.0 * MAX {
-        return if magnitude.is_nan() { f64::NAN } else { f64::INFINITY };
+        return if magnitude.is_nan() {
+            f64::NAN
+        } else {
+            f64::INFINITY
+        };
     }
     // The exponent straight from the bits: `log2` would round up next to powers of two.
     let exponent = ((magnitude.to_bits() >> 52) & 0x7ff) as i32 - 1023;
@@ -35,7 +39,11 @@ pub fn ulp_distance(a: f32, b: f32) -> Option<u64> {
 /// |got − truth| in ULPs of the truth.
 #[must_use]
 pub fn error_ulps(got: f64, truth: f64) -> f64 {
-    if got == truth { 0.0 } else { (got - truth).abs() / ulp(truth) }
+    if got == truth {
+        0.0
+    } else {
+        (got - truth).abs() / ulp(truth)
+    }
 }
 
 #[cfg(test)]

@@ -31,7 +31,13 @@ impl Add for Bounded {
         let value = self.value + other.value;
         let error = self.error + other.error;
         let exact = error == 0.0 && is_f32(value) && sum_is_exact(self.value, other.value);
-        Self { value, error, forked: false }.rounded(if exact { 0.0 } else { 1.0 }).marked(&[self, other])
+        Self {
+            value,
+            error,
+            forked: false,
+        }
+        .rounded(if exact { 0.0 } else { 1.0 })
+        .marked(&[self, other])
     }
 }
 
@@ -47,7 +53,10 @@ impl Neg for Bounded {
     type Output = Self;
 
     fn neg(self) -> Self {
-        Self { value: -self.value, ..self }
+        Self {
+            value: -self.value,
+            ..self
+        }
     }
 }
 
@@ -59,17 +68,23 @@ impl Mul for Bounded {
             return Self::OPEN.marked(&[self, other]);
         }
         let value = self.value * other.value;
-        let error = self.value.abs() * other.error + other.value.abs() * self.error + self.error * other.error;
+        let error =
+            self.value.abs() * other.error + other.value.abs() * self.error + self.error * other.error;
         // The product of two f32 numbers is exact in f64, so `is_f32` sees the exact product.
         let exact = error == 0.0 && is_f32(value);
-        Self { value, error, forked: false }.rounded(if exact { 0.0 } else { 1.0 }).marked(&[self, other])
+        Self {
+            value,
+            error,
+            forked: false,
+        }
+        .rounded(if exact { 0.0 } else { 1.0 })
+        .marked(&[self, other])
     }
 }
 
 impl Div for Bounded {
     type Output = Self;
 
-    #[expect(clippy::suspicious_arithmetic_impl, reason = "the error of a quotient is a sum of products")]
     fn div(self, other: Self) -> Self {
         let smallest = other.value.abs() - other.error;
         let in_domain = smallest >= SMALLEST_DIVISOR && other.magnitude() <= LARGEST_DIVISOR;
@@ -78,7 +93,11 @@ impl Div for Bounded {
         }
         let value = self.value / other.value;
         let error = (self.error + value.abs() * other.error) / smallest;
-        let quotient = Self { value, error, forked: false };
+        let quotient = Self {
+            value,
+            error,
+            forked: false,
+        };
         // Zero divided by what is not zero is zero, however the quotient is made.
         let ulps = if self.magnitude() == 0.0 { 0.0 } else { 2.5 };
         quotient.rounded(ulps).marked(&[self, other])

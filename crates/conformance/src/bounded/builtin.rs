@@ -70,7 +70,9 @@ impl Bounded {
             return Self::OPEN.marked(&[self]);
         }
         let f = |x: f64| x.sqrt().recip();
-        Self::between(f(self.value), f(self.high()), f(self.low())).rounded(2.0).marked(&[self])
+        Self::between(f(self.value), f(self.high()), f(self.low()))
+            .rounded(2.0)
+            .marked(&[self])
     }
 
     /// √x by way of 1 / inverseSqrt(x). The rule leaves √0 open; every implementation that is known returns 0 or goes
@@ -87,7 +89,9 @@ impl Bounded {
             return Self::OPEN.marked(&[self]);
         }
         let ulps = 3.0 + 2.0 * self.magnitude();
-        Self::between(self.value.exp2(), self.low().exp2(), self.high().exp2()).rounded(ulps).marked(&[self])
+        Self::between(self.value.exp2(), self.low().exp2(), self.high().exp2())
+            .rounded(ulps)
+            .marked(&[self])
     }
 
     /// log₂ x for x > 0; open where x may be zero, subnormal or negative.
@@ -98,8 +102,17 @@ impl Bounded {
         }
         let exact = Self::between(self.value.log2(), self.low().log2(), self.high().log2());
         let near_one = self.low() >= 0.5 && self.high() <= 2.0;
-        let error = if near_one { LOG2_ERROR } else { LOG2_ERROR.max(3.0 * ulp(exact.magnitude())) };
-        Self { error: exact.error + error, ..exact }.rounded(0.0).marked(&[self])
+        let error = if near_one {
+            LOG2_ERROR
+        } else {
+            LOG2_ERROR.max(3.0 * ulp(exact.magnitude()))
+        };
+        Self {
+            error: exact.error + error,
+            ..exact
+        }
+        .rounded(0.0)
+        .marked(&[self])
     }
 
     /// x^y by way of exp2(y · log2(x)); open where x may be zero, subnormal or negative.
@@ -113,9 +126,14 @@ impl Bounded {
         if !self.is_decided() {
             return self;
         }
-        let inside = corners.iter().copied().filter(|c| *c > self.low() && *c < self.high());
+        let inside = corners
+            .iter()
+            .copied()
+            .filter(|c| *c > self.low() && *c < self.high());
         let ends = [self.low(), self.high()].into_iter().chain(inside).map(&f);
-        let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+        let (low, high) = ends.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| {
+            (l.min(y), h.max(y))
+        });
         Self::between(f(self.value), low, high).marked(&[self])
     }
 
@@ -126,6 +144,9 @@ impl Bounded {
         }
         let (low, high) = (f(self.low()), f(self.high()));
         let joined = Self::between(f(self.value), low, high).marked(&[self]);
-        Self { forked: joined.forked || low != high, ..joined }
+        Self {
+            forked: joined.forked || low != high,
+            ..joined
+        }
     }
 }

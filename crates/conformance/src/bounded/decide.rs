@@ -57,7 +57,11 @@ impl Bounded {
     /// self < other.
     #[must_use]
     pub fn less(&self, other: Self) -> Decision {
-        Decision::of(self.high() < other.low(), self.low() >= other.high(), self.value < other.value)
+        Decision::of(
+            self.high() < other.low(),
+            self.low() >= other.high(),
+            self.value < other.value,
+        )
     }
 
     /// self ≤ other.
@@ -88,10 +92,16 @@ impl Bounded {
             Decision::Either { nominal } => {
                 let chosen = if nominal { yes } else { no };
                 if !yes.is_decided() || !no.is_decided() {
-                    return Self { forked: true, ..Self::OPEN };
+                    return Self {
+                        forked: true,
+                        ..Self::OPEN
+                    };
                 }
                 let joined = Self::between(chosen.value, yes.low().min(no.low()), yes.high().max(no.high()));
-                Self { forked: yes != no || joined.marked(&[yes, no]).forked, ..joined }
+                Self {
+                    forked: yes != no || joined.marked(&[yes, no]).forked,
+                    ..joined
+                }
             }
         }
     }

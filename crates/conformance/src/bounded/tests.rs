@@ -18,7 +18,10 @@ struct Adversary {
 
 impl Adversary {
     fn new(seed: u64) -> Self {
-        Self { rng: Pcg64Mcg::seed_from_u64(seed), excess: 1.0 }
+        Self {
+            rng: Pcg64Mcg::seed_from_u64(seed),
+            excess: 1.0,
+        }
     }
 
     /// An f32 on either side of the exact result, or a zero for a subnormal.
@@ -35,7 +38,11 @@ impl Adversary {
     }
 
     fn flush(&mut self, x: f32) -> f32 {
-        if x.is_subnormal() && self.rng.random() { 0.0 } else { x }
+        if x.is_subnormal() && self.rng.random() {
+            0.0
+        } else {
+            x
+        }
     }
 
     /// A result that is off by up to `ulps`, rounded toward the exact result so that the total stays inside.
@@ -88,7 +95,11 @@ impl Adversary {
             let error = (2.0 * self.rng.random::<f64>() - 1.0) * 2f64.powi(-21);
             // Rounding the perturbed value must not leave the allowance.
             let near = (exact + error) as f32;
-            if (f64::from(near) - exact).abs() <= 2f64.powi(-21) { near } else { exact as f32 }
+            if (f64::from(near) - exact).abs() <= 2f64.powi(-21) {
+                near
+            } else {
+                exact as f32
+            }
         } else {
             self.off_by(exact, 3.0)
         };
@@ -203,7 +214,10 @@ fn powers_stay_inside() {
 
 #[test]
 fn a_machine_that_rounds_four_ulps_off_is_caught() {
-    let mut cheat = Adversary { excess: 3.0, ..Adversary::new(7) };
+    let mut cheat = Adversary {
+        excess: 3.0,
+        ..Adversary::new(7)
+    };
     let (outside, _) = trials(&mut cheat, 1000, |machine, rng| {
         let (x, y) = (number(rng, 10.0), number(rng, 10.0));
         (machine.mul(x, y), b(x) * b(y))
@@ -278,7 +292,10 @@ fn undecided_comparisons_join_and_mark() {
     let sign = Bounded::select(x.less(b(0.0)), b(-1.0), b(1.0));
     assert!(sign.forked && sign.contains(1.0) && sign.contains(-1.0));
     assert_eq!(sign.value, 1.0);
-    assert!(!Bounded::select(x.less(b(0.0)), b(1.0), b(1.0)).forked, "equal results leave nothing undecided");
+    assert!(
+        !Bounded::select(x.less(b(0.0)), b(1.0), b(1.0)).forked,
+        "equal results leave nothing undecided"
+    );
     let step = Bounded::within(3.0, 1e-6).floor();
     assert!(step.forked && step.contains(2.0) && step.contains(3.0));
 }

@@ -16,7 +16,11 @@ pub type Vec3 = [Bounded; 3];
 #[must_use]
 pub fn dot<const N: usize>(a: &[Bounded; N], b: &[Bounded; N]) -> Bounded {
     let products: Vec<Bounded> = a.iter().zip(b).map(|(&x, &y)| x * y).collect();
-    let present: Vec<Bounded> = products.iter().copied().filter(|p| !p.is_decided() || p.magnitude() > 0.0).collect();
+    let present: Vec<Bounded> = products
+        .iter()
+        .copied()
+        .filter(|p| !p.is_decided() || p.magnitude() > 0.0)
+        .collect();
     match present.as_slice() {
         [] => Bounded::exact(0.0).marked(&products),
         [single] => single.marked(&products),
@@ -31,12 +35,28 @@ fn sum_in_any_order(terms: &[Bounded]) -> Bounded {
     let carried: f64 = terms.iter().map(|t| t.error).sum();
     let sums = (terms.len() - 1) as f64;
     // A partial sum that turns out subnormal may be flushed.
-    let smallest = terms.iter().map(|t| t.value.abs() - t.error).fold(f64::INFINITY, f64::min);
-    let flushed = if smallest < MIN_NORMAL / unit { sums * MIN_NORMAL.min(magnitude) } else { 0.0 };
+    let smallest = terms
+        .iter()
+        .map(|t| t.value.abs() - t.error)
+        .fold(f64::INFINITY, f64::min);
+    let flushed = if smallest < MIN_NORMAL / unit {
+        sums * MIN_NORMAL.min(magnitude)
+    } else {
+        0.0
+    };
     let error = carried + sums * unit * (1.0 + unit).powi(terms.len() as i32) * magnitude + flushed;
     // Overflow of a partial sum in some order is overflow.
     let fits = magnitude <= crate::ulp::MAX;
-    if fits { Bounded { value, error, forked: false }.rounded(0.0) } else { Bounded::OPEN }
+    if fits {
+        Bounded {
+            value,
+            error,
+            forked: false,
+        }
+        .rounded(0.0)
+    } else {
+        Bounded::OPEN
+    }
 }
 
 /// a × b.

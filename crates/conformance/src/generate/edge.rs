@@ -47,7 +47,11 @@ fn drawn(values: &[Vec<Vec<f32>>], inputs: &mut Inputs) {
     for index in 0..LIMIT {
         let (turn, step) = (index % values.len(), index / values.len());
         let pick = |(place, field): (usize, &Vec<Vec<f32>>)| {
-            let at = if place == turn { step % field.len() } else { rng.random_range(0..field.len()) };
+            let at = if place == turn {
+                step % field.len()
+            } else {
+                rng.random_range(0..field.len())
+            };
             field[at].clone()
         };
         inputs.push(values.iter().enumerate().map(pick));
@@ -87,10 +91,31 @@ fn scalars(role: Role) -> Vec<f32> {
     const SUBNORMAL: f32 = 1e-40;
     match role {
         Role::Unorm | Role::Height => {
-            vec![0.0, 1.0, 0.5, 128.0 / 255.0, 127.0 / 255.0, 1.0 / 255.0, 1.0f32.next_down(), 1e-20, SUBNORMAL, 0.25]
+            vec![
+                0.0,
+                1.0,
+                0.5,
+                128.0 / 255.0,
+                127.0 / 255.0,
+                1.0 / 255.0,
+                1.0f32.next_down(),
+                1e-20,
+                SUBNORMAL,
+                0.25,
+            ]
         }
         Role::Snorm => {
-            let unit = [0.0, 1.0, 0.5, 1.0 / 127.0, 0.5 / 127.0, 1.0 / 255.0, 1.0f32.next_down(), 1e-20, SUBNORMAL];
+            let unit = [
+                0.0,
+                1.0,
+                0.5,
+                1.0 / 127.0,
+                0.5 / 127.0,
+                1.0 / 255.0,
+                1.0f32.next_down(),
+                1e-20,
+                SUBNORMAL,
+            ];
             unit.iter().flat_map(|&x| [x, -x]).collect()
         }
         Role::Slope => vec![0.0, 1.0, -1.0, 0.04, 20.48, -4096.0, 1e9, 1e-6, SUBNORMAL],
@@ -99,15 +124,35 @@ fn scalars(role: Role) -> Vec<f32> {
         Role::Uv => vec![0.0, 1.0, 0.5, -0.0, -3.25, 0.999_999_9, 1000.7, 1e6, SUBNORMAL],
         Role::UvEdge => vec![0.0, 1.0, -1.0, 1e-3, -1e-3, 1e-7, 0.5, 64.0],
         Role::Colour => vec![0.0, 1.0, 0.5, 10.0, 1e-6, 65_504.0, SUBNORMAL],
-        Role::Cosine => vec![0.0, 1.0, -1.0, 1.0f32.next_up(), 1.0f32.next_down(), 0.5, 1e-3, 1e-20, SUBNORMAL, -1e-20],
+        Role::Cosine => vec![
+            0.0,
+            1.0,
+            -1.0,
+            1.0f32.next_up(),
+            1.0f32.next_down(),
+            0.5,
+            1e-3,
+            1e-20,
+            SUBNORMAL,
+            -1e-20,
+        ],
         Role::Exponent => vec![1.0, 1e-3, 0.5, 2.0, 16.0, 64.0, 256.0, 4096.0],
         Role::Sign => vec![-1.0, 1.0],
         Role::Byte => vec![0.0, 1.0, 2.0, 126.0, 127.0, 128.0, 129.0, 254.0, 255.0],
-        Role::Index => vec![0.0, -1.0, 1.0, -2.0, 254.0, 255.0, 256.0, 511.0, 512.0, -255.0, -256.0, -257.0, 40_000.0],
+        Role::Index => vec![
+            0.0, -1.0, 1.0, -2.0, 254.0, 255.0, 256.0, 511.0, 512.0, -255.0, -256.0, -257.0, 40_000.0,
+        ],
         Role::Size => vec![1.0, 2.0, 3.0, 255.0, 256.0, 16_384.0],
         Role::EdgeMode => vec![0.0, 1.0, 2.0],
-        Role::Vector | Role::Unit | Role::MapNormal | Role::Tangent | Role::Matrix | Role::Rigid | Role::Edge
-        | Role::Position | Role::Weight => Vec::new(),
+        Role::Vector
+        | Role::Unit
+        | Role::MapNormal
+        | Role::Tangent
+        | Role::Matrix
+        | Role::Rigid
+        | Role::Edge
+        | Role::Position
+        | Role::Weight => Vec::new(),
         Role::Output | Role::Direction => vec![0.0],
     }
 }
@@ -117,7 +162,13 @@ fn scalars(role: Role) -> Vec<f32> {
 pub fn units() -> Vec<[f32; 3]> {
     let third = (1.0f64 / 3.0).sqrt() as f32;
     let mut units = axes();
-    units.extend([[-third, third, third], [third, -third, -third], [0.6, 0.0, 0.8], [0.0, 0.6, -0.8], [0.48, 0.6, 0.64]]);
+    units.extend([
+        [-third, third, third],
+        [third, -third, -third],
+        [0.6, 0.0, 0.8],
+        [0.0, 0.6, -0.8],
+        [0.48, 0.6, 0.64],
+    ]);
     for z in [1e-2f32, 1e-4, 1e-7, 1e-20, 1e-38, -1e-2, -1e-7] {
         let across = (1.0 - f64::from(z) * f64::from(z)).sqrt() as f32;
         units.extend([[across, 0.0, z], [-0.6 * across, 0.8 * across, z]]);
@@ -139,8 +190,16 @@ fn axes() -> Vec<[f32; 3]> {
 
 /// Vectors of every length that f32 can hold: zero, tiny, huge.
 fn vectors() -> Vec<[f32; 3]> {
-    let directions = [[0.0f32, 0.0, 1.0], [1.0, 0.0, 0.0], [-1.0, 1.0, 1.0], [0.48, -0.6, 0.64], [1e-6, 0.0, 1.0]];
-    let lengths = [1.0f32, 0.5, 100.0, 1e-10, 1e-19, 1e-23, 1e-37, 1e-42, 1e10, 2e19, 8e37];
+    let directions = [
+        [0.0f32, 0.0, 1.0],
+        [1.0, 0.0, 0.0],
+        [-1.0, 1.0, 1.0],
+        [0.48, -0.6, 0.64],
+        [1e-6, 0.0, 1.0],
+    ];
+    let lengths = [
+        1.0f32, 0.5, 100.0, 1e-10, 1e-19, 1e-23, 1e-37, 1e-42, 1e10, 2e19, 8e37,
+    ];
     let mut vectors = vec![[0.0; 3], [-0.0, 0.0, -0.0]];
     for length in lengths {
         vectors.extend(directions.map(|d| d.map(|x| x * length)));
@@ -153,8 +212,20 @@ fn vectors() -> Vec<[f32; 3]> {
 /// What normal maps hold: flat (with and without the half-byte tilt), steep, too short, too long.
 fn map_normals() -> Vec<[f32; 3]> {
     let tilt = 1.0 / 255.0;
-    let mut normals = vec![[0.0, 0.0, 1.0], [tilt, tilt, 1.0], [-tilt, -tilt, 1.0], [0.8, 0.0, 0.6], [0.0, -0.8, 0.6]];
-    normals.extend([[0.07, -0.05, 0.07], [0.9, 0.9, 0.8], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, -1.0, 1.0]]);
+    let mut normals = vec![
+        [0.0, 0.0, 1.0],
+        [tilt, tilt, 1.0],
+        [-tilt, -tilt, 1.0],
+        [0.8, 0.0, 0.6],
+        [0.0, -0.8, 0.6],
+    ];
+    normals.extend([
+        [0.07, -0.05, 0.07],
+        [0.9, 0.9, 0.8],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [-1.0, -1.0, 1.0],
+    ]);
     normals
 }
 
@@ -171,7 +242,13 @@ fn tangents() -> Vec<Vec<f32>> {
 fn edges() -> Vec<[f32; 3]> {
     let mut edges = vec![[0.0; 3], [1.0, 1.0, 0.0], [0.3, -0.4, 1.2], [-2.0, 0.5, 0.1]];
     edges.extend(axes());
-    edges.extend([[1e-5, 0.0, 0.0], [0.0, 1e-5, 1e-5], [1e4, 0.0, 1.0], [1.0, 1e-7, 0.0], [1e-15, 1e-15, 0.0]]);
+    edges.extend([
+        [1e-5, 0.0, 0.0],
+        [0.0, 1e-5, 1e-5],
+        [1e4, 0.0, 1.0],
+        [1.0, 1e-7, 0.0],
+        [1e-15, 1e-15, 0.0],
+    ]);
     edges
 }
 
@@ -200,7 +277,10 @@ fn rigids() -> Vec<Vec<f32>> {
         let column = |c: usize| [m[3 * c], m[3 * c + 1], m[3 * c + 2], 0.0];
         [column(0), column(1), column(2), [t[0], t[1], t[2], 1.0]].concat()
     };
-    rotations().into_iter().flat_map(|m| shifts.map(|t| rigid(m, t))).collect()
+    rotations()
+        .into_iter()
+        .flat_map(|m| shifts.map(|t| rigid(m, t)))
+        .collect()
 }
 
 /// Quarter turns and turns by angles whose sine and cosine are short fractions.
@@ -243,8 +323,16 @@ mod tests {
     fn values_fit_their_shapes() {
         for probe in PROBES {
             for field in probe.inputs {
-                assert!(!matches!(field.role, Role::Output), "{}: an input cannot be an output", probe.id);
-                assert!(hard_values(field).iter().all(|v| v.len() == field.shape.floats()), "{}", probe.id);
+                assert!(
+                    !matches!(field.role, Role::Output),
+                    "{}: an input cannot be an output",
+                    probe.id
+                );
+                assert!(
+                    hard_values(field).iter().all(|v| v.len() == field.shape.floats()),
+                    "{}",
+                    probe.id
+                );
             }
         }
     }

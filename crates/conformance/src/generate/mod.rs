@@ -22,7 +22,10 @@ impl Inputs {
     /// No items yet.
     #[must_use]
     pub fn of(probe: &Probe) -> Self {
-        Self { values: Vec::new(), stride: probe.input_floats.max(1) }
+        Self {
+            values: Vec::new(),
+            stride: probe.input_floats.max(1),
+        }
     }
 
     /// How many items.
@@ -50,5 +53,9 @@ impl Inputs {
 
 /// The fields' values of every item chosen by `pick`, which gets the field and its place.
 pub(crate) fn item(fields: &[Field], mut pick: impl FnMut(usize, &Field) -> Vec<f32>) -> Vec<Vec<f32>> {
-    fields.iter().enumerate().map(|(place, field)| pick(place, field)).collect()
+    fields
+        .iter()
+        .enumerate()
+        .map(|(place, field)| pick(place, field))
+        .collect()
 }

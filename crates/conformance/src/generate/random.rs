@@ -13,10 +13,11 @@ use super::{Inputs, item};
 /// The seed of ordinary runs. It is part of every random case's name.
 pub const SEED: u64 = 1;
 
-/// `count` random items.
+/// `count` random items: part `part` of as many as are wanted. Each part has its own stream, so a long run begins with the
+/// items of a short one and never has to be held in memory as a whole.
 #[must_use]
-pub fn generate(probe: &Probe, count: usize, seed: u64) -> Inputs {
-    let mut rng = stream(probe.id.as_str(), seed);
+pub fn generate(probe: &Probe, count: usize, part: usize, seed: u64) -> Inputs {
+    let mut rng = stream(&format!("{}#{part}", probe.id), seed);
     let mut inputs = Inputs::of(probe);
     for _ in 0..count {
         inputs.push(item(probe.inputs, |_, field| value(field, &mut rng)));
@@ -27,7 +28,9 @@ pub fn generate(probe: &Probe, count: usize, seed: u64) -> Inputs {
 /// The stream of a name and a seed (the name enters by FNV-1a).
 #[must_use]
 pub fn stream(name: &str, seed: u64) -> Pcg64Mcg {
-    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
+    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |h, b| {
+        (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3)
+    });
     Pcg64Mcg::seed_from_u64(hash ^ seed)
 }
 
@@ -68,8 +71,15 @@ fn scalar(role: Role, rng: &mut Pcg64Mcg) -> f32 {
         Role::Index => rng.random_range(-70_000..=70_000i32) as f32,
         Role::Size => rng.random_range(1..=16_384u32) as f32,
         Role::EdgeMode => rng.random_range(0..3u32) as f32,
-        Role::Vector | Role::Unit | Role::MapNormal | Role::Tangent | Role::Matrix | Role::Rigid | Role::Edge
-        | Role::Position | Role::Weight => unorm,
+        Role::Vector
+        | Role::Unit
+        | Role::MapNormal
+        | Role::Tangent
+        | Role::Matrix
+        | Role::Rigid
+        | Role::Edge
+        | Role::Position
+        | Role::Weight => unorm,
         Role::Output | Role::Direction => 0.0,
     }
 }
@@ -115,12 +125,22 @@ fn vector(rng: &mut Pcg64Mcg) -> [f32; 3] {
 fn map_normal(rng: &mut Pcg64Mcg) -> [f32; 3] {
     let v = unit64(rng);
     let upward = DVec3::new(v.x, v.y, v.z.abs());
-    scaled(upward, if rng.random::<bool>() { 1.0 } else { 0.11 + 1.39 * rng.random::<f64>() })
+    scaled(
+        upward,
+        if rng.random::<bool>() {
+            1.0
+        } else {
+            0.11 + 1.39 * rng.random::<f64>()
+        },
+    )
 }
 
 fn rotation(rng: &mut Pcg64Mcg) -> DMat3 {
     let axis = unit64(rng);
-    DMat3::from_quat(DQuat::from_axis_angle(axis, std::f64::consts::TAU * rng.random::<f64>()))
+    DMat3::from_quat(DQuat::from_axis_angle(
+        axis,
+        std::f64::consts::TAU * rng.random::<f64>(),
+    ))
 }
 
 /// Two rotations around a stretch of 1/8 to 8 an axis, one in four mirrored: every condition number up to 64.
@@ -135,7 +155,10 @@ fn matrix(rng: &mut Pcg64Mcg) -> Vec<f32> {
 /// A rotation and a translation.
 fn rigid(rng: &mut Pcg64Mcg) -> Vec<f32> {
     let shift = log_uniform(rng, -4.0, 8.0) * unit64(rng);
-    DMat4::from_mat3_translation(rotation(rng), shift).to_cols_array().map(|x| x as f32).to_vec()
+    DMat4::from_mat3_translation(rotation(rng), shift)
+        .to_cols_array()
+        .map(|x| x as f32)
+        .to_vec()
 }
 
 /// A sum of areas, of the size that the vectors beside it have for the most part.
@@ -157,15 +180,16 @@ mod tests {
     fn same_seed_same_inputs_and_each_probe_its_own() {
         let bits = |i: super::Inputs| i.values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
         for probe in PROBES {
-            assert_eq!(bits(generate(probe, 10, 3)), bits(generate(probe, 10, 3)));
-            assert_ne!(bits(generate(probe, 10, 3)), bits(generate(probe, 10, 4)));
+            assert_eq!(bits(generate(probe, 10, 0, 3)), bits(generate(probe, 10, 0, 3)));
+            assert_ne!(bits(generate(probe, 10, 0, 3)), bits(generate(probe, 10, 0, 4)));
+            assert_ne!(bits(generate(probe, 10, 0, 3)), bits(generate(probe, 10, 1, 3)));
         }
     }
 
     #[test]
     fn every_value_is_finite_and_in_its_place() {
         for probe in PROBES {
-            let inputs = generate(probe, 100, 1);
+            let inputs = generate(probe, 100, 0, 1);
             assert_eq!(inputs.len(), 100);
             assert!(inputs.values.iter().all(|x| x.is_finite()), "{}", probe.id);
         }

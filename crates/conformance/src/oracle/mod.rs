@@ -31,7 +31,10 @@ impl<'a, T: Copy> Args<'a, T> {
     /// # Panics
     /// When there are fewer: the oracle and the table of probes disagree, which a test over the table finds.
     pub fn array<const N: usize>(&mut self) -> [T; N] {
-        let (head, tail) = self.rest.split_first_chunk().expect("an oracle reads more inputs than the probe has");
+        let (head, tail) = self
+            .rest
+            .split_first_chunk()
+            .expect("an oracle reads more inputs than the probe has");
         self.rest = tail;
         *head
     }
@@ -66,7 +69,13 @@ pub fn expected(probe: &Probe, input: &[f32]) -> Option<Vec<Expected>> {
     let bounded: Vec<Bounded> = input.iter().copied().map(Bounded::input).collect();
     let truth = truth::find(probe.function())?(&mut Args::new(&exact));
     let bounds = (tolerance::find(probe.function())?.bound)(&mut Args::new(&bounded));
-    Some(truth.into_iter().zip(bounds).map(|(truth, bound)| Expected { truth, bound }).collect())
+    Some(
+        truth
+            .into_iter()
+            .zip(bounds)
+            .map(|(truth, bound)| Expected { truth, bound })
+            .collect(),
+    )
 }
 
 #[cfg(test)]
@@ -81,41 +90,66 @@ mod tests {
     #[test]
     fn every_probe_has_both_oracles_and_every_oracle_a_probe() {
         let known = |name: &str| PROBES.iter().any(|probe| probe.function() == name);
-        let missing: Vec<&str> = PROBES.iter().map(|probe| probe.function()).filter(|f| truth::find(f).is_none()).collect();
+        let missing: Vec<&str> = PROBES
+            .iter()
+            .map(|probe| probe.function())
+            .filter(|f| truth::find(f).is_none())
+            .collect();
         assert!(missing.is_empty(), "no truth for {missing:?}");
-        let missing: Vec<&str> =
-            PROBES.iter().map(|probe| probe.function()).filter(|f| tolerance::find(f).is_none()).collect();
+        let missing: Vec<&str> = PROBES
+            .iter()
+            .map(|probe| probe.function())
+            .filter(|f| tolerance::find(f).is_none())
+            .collect();
         assert!(missing.is_empty(), "no tolerance for {missing:?}");
-        let orphans: Vec<&str> = truth::names().chain(tolerance::names()).filter(|name| !known(name)).collect();
+        let orphans: Vec<&str> = truth::names()
+            .chain(tolerance::names())
+            .filter(|name| !known(name))
+            .collect();
         assert!(orphans.is_empty(), "oracles without a probe: {orphans:?}");
     }
 
     #[test]
     fn oracles_read_all_inputs_and_give_all_outputs() {
         for probe in PROBES {
-            let inputs = random::generate(probe, 1, 1);
+            let inputs = random::generate(probe, 1, 0, 1);
             let input = inputs.items().next().unwrap();
             let exact: Vec<f64> = input.iter().copied().map(f64::from).collect();
             let mut args = Args::new(&exact);
             let truth = truth::find(probe.function()).unwrap()(&mut args);
             assert!(args.is_empty(), "{}: the truth leaves inputs unread", probe.id);
-            assert_eq!(truth.len(), probe.output_floats, "{}: the truth's outputs", probe.id);
+            assert_eq!(
+                truth.len(),
+                probe.output_floats,
+                "{}: the truth's outputs",
+                probe.id
+            );
             let bounded: Vec<Bounded> = input.iter().copied().map(Bounded::input).collect();
             let mut args = Args::new(&bounded);
             let bounds = (tolerance::find(probe.function()).unwrap().bound)(&mut args);
-            assert!(args.is_empty(), "{}: the tolerance leaves inputs unread", probe.id);
-            assert_eq!(bounds.len(), probe.output_floats, "{}: the tolerance's outputs", probe.id);
+            assert!(
+                args.is_empty(),
+                "{}: the tolerance leaves inputs unread",
+                probe.id
+            );
+            assert_eq!(
+                bounds.len(),
+                probe.output_floats,
+                "{}: the tolerance's outputs",
+                probe.id
+            );
         }
     }
 
     #[test]
     fn the_oracles_agree_on_random_inputs() {
         for probe in PROBES {
-            let inputs = random::generate(probe, 500, 2);
+            let inputs = random::generate(probe, 500, 0, 2);
             for input in inputs.items() {
                 for (output, e) in expected(probe, input).unwrap().iter().enumerate() {
                     let slack = 64.0 * f64::EPSILON * e.bound.value.abs() + f64::MIN_POSITIVE;
-                    let agree = !e.bound.is_decided() || (e.truth - e.bound.value).abs() <= e.bound.error + slack;
+                    let agree =
+                        !e.bound.is_decided() || (e.truth - e.bound.value).abs() <= e.bound.error + slack;
                     assert!(agree, "{} output {output} at {input:?}: {e:?}", probe.id);
                 }
             }
@@ -124,8 +158,11 @@ mod tests {
 
     #[test]
     fn hardened_functions_are_decided_on_random_inputs() {
-        for probe in PROBES.iter().filter(|probe| probe.form == bossage_shaders::Form::Hardened) {
-            let inputs = random::generate(probe, 2000, 3);
+        for probe in PROBES
+            .iter()
+            .filter(|probe| probe.form == bossage_shaders::Form::Hardened)
+        {
+            let inputs = random::generate(probe, 2000, 0, 3);
             let (mut outputs, mut open) = (0, 0);
             for input in inputs.items() {
                 for e in expected(probe, input).unwrap() {
@@ -133,7 +170,11 @@ mod tests {
                     open += usize::from(!e.bound.is_decided() || e.bound.forked);
                 }
             }
-            assert!(open * 100 <= outputs, "{}: {open} of {outputs} undecided", probe.id);
+            assert!(
+                open * 100 <= outputs,
+                "{}: {open} of {outputs} undecided",
+                probe.id
+            );
         }
     }
 }

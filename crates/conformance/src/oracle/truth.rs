@@ -7,8 +7,8 @@ use bossage_assets::EdgeMode;
 use bossage_reference::frame_from_uv::{self, Tangents};
 use bossage_reference::vector::{SMALLEST_NORMAL_F32, normalize, normalize_or_zero, saturate, sign_not_zero};
 use bossage_reference::{
-    blinn_phong, codec_biased, codec_unorm, dot3, frame_mikktspace, height_to_normal, height_to_normal_forward,
-    light_to_tangent, normal_transform, parallax_offset, parallax_offset_limited,
+    blinn_phong, codec_biased, codec_unorm, dot3, frame_mikktspace, height_to_normal,
+    height_to_normal_forward, light_to_tangent, normal_transform, parallax_offset, parallax_offset_limited,
 };
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
 
@@ -22,7 +22,10 @@ pub type Truth = fn(&mut Args<'_, f64>) -> Vec<f64>;
 /// The truth of the function of that name.
 #[must_use]
 pub fn find(function: &str) -> Option<Truth> {
-    TABLE.iter().find(|(name, _)| *name == function).map(|(_, truth)| *truth)
+    TABLE
+        .iter()
+        .find(|(name, _)| *name == function)
+        .map(|(_, truth)| *truth)
 }
 
 /// The functions that have one.
@@ -33,9 +36,13 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 const TABLE: &[(&str, Truth)] = &[
     // lib
     ("resolve_edge", resolve_edge),
-    ("euclidean_remainder", |a| vec![(a.scalar() as i64).rem_euclid(a.scalar() as i64) as f64]),
+    ("euclidean_remainder", |a| {
+        vec![(a.scalar() as i64).rem_euclid(a.scalar() as i64) as f64]
+    }),
     ("bitangent", |a| out3(frame_mikktspace::bitangent(v3(a), v4(a)))),
-    ("tangent_from_normal", |a| out3(frame_from_uv::frame_from_normal(v3(a)).tangent)),
+    ("tangent_from_normal", |a| {
+        out3(frame_from_uv::frame_from_normal(v3(a)).tangent)
+    }),
     ("linear_part", |a| out9(DMat3::from_mat4(m4(a)))),
     ("column_scales", |a| out3(column_scales(m3(a)))),
     ("cofactor_direction", |a| {
@@ -46,61 +53,126 @@ const TABLE: &[(&str, Truth)] = &[
     ("normalise", |a| out3(normalize_or_zero(v3(a)))),
     ("normalise_published", |a| out3(normalize(v3(a)))),
     ("largest_component", |a| vec![v3(a).abs().max_element()]),
-    ("elevation", |a| vec![parallax_offset::elevation(a.scalar(), a.scalar(), a.scalar())]),
+    ("elevation", |a| {
+        vec![parallax_offset::elevation(a.scalar(), a.scalar(), a.scalar())]
+    }),
     // techniques
     ("lambert", |a| vec![saturate(v3(a).dot(v3(a)))]),
     ("half_vector", |a| out3(normalize_or_zero(v3(a) + v3(a)))),
     ("half_vector_published", |a| out3(normalize(v3(a) + v3(a)))),
-    ("highlight_power", |a| vec![blinn_phong::highlight_power(a.scalar(), a.scalar())]),
-    ("highlight_power_published", |a| vec![blinn_phong::highlight_power_published(a.scalar(), a.scalar())]),
+    ("highlight_power", |a| {
+        vec![blinn_phong::highlight_power(a.scalar(), a.scalar())]
+    }),
+    ("highlight_power_published", |a| {
+        vec![blinn_phong::highlight_power_published(a.scalar(), a.scalar())]
+    }),
     ("blinn_phong", |a| blinn(a, blinn_phong::hardened)),
     ("blinn_phong_published", |a| blinn(a, blinn_phong::published)),
-    ("codec_biased_encode", |a| each3(a, |n| f64::from(codec_biased::encode_hardened(n)))),
-    ("codec_biased_encode_published", |a| each3(a, |n| f64::from(codec_biased::encode_published(n)))),
+    ("codec_biased_encode", |a| {
+        each3(a, |n| f64::from(codec_biased::encode_hardened(n)))
+    }),
+    ("codec_biased_encode_published", |a| {
+        each3(a, |n| f64::from(codec_biased::encode_published(n)))
+    }),
     ("codec_biased_decode", |a| each3(a, codec_biased::decode_hardened)),
-    ("codec_biased_decode_published", |a| each3(a, codec_biased::decode_published)),
+    ("codec_biased_decode_published", |a| {
+        each3(a, codec_biased::decode_published)
+    }),
     ("codec_unorm_encode", |a| each3(a, codec_unorm::encode)),
     ("codec_unorm_decode", |a| each3(a, codec_unorm::decode)),
-    ("codec_unorm_encode_byte", |a| each3(a, |n| f64::from(codec_unorm::encode_byte(n)))),
+    ("codec_unorm_encode_byte", |a| {
+        each3(a, |n| f64::from(codec_unorm::encode_byte(n)))
+    }),
     ("dot3", |a| out3(dot3::hardened(v3(a), v3(a), v3(a)))),
     ("dot3_published", |a| out3(dot3::published(v3(a), v3(a), v3(a)))),
     ("dot3_combiner", |a| vec![dot3::combiner(v3(a), v3(a))]),
     ("frame_from_uv_triangle", frame_from_uv_triangle),
-    ("frame_from_uv_triangle_published", frame_from_uv_triangle_published),
+    (
+        "frame_from_uv_triangle_published",
+        frame_from_uv_triangle_published,
+    ),
     ("frame_from_uv_vertex", |a| {
-        let (normal, sum) = (v3(a), Tangents { tangent: v3(a), bitangent: v3(a) });
+        let (normal, sum) = (
+            v3(a),
+            Tangents {
+                tangent: v3(a),
+                bitangent: v3(a),
+            },
+        );
         out4(frame_from_uv::hardened_vertex(normal, sum, a.scalar()))
     }),
     ("frame_from_uv_vertex_published", |a| {
-        out4(frame_from_uv::orthogonalise(v3(a), Tangents { tangent: v3(a), bitangent: v3(a) }))
+        out4(frame_from_uv::orthogonalise(
+            v3(a),
+            Tangents {
+                tangent: v3(a),
+                bitangent: v3(a),
+            },
+        ))
     }),
     ("handedness_of", |a| {
-        vec![frame_from_uv::handedness(v3(a), Tangents { tangent: v3(a), bitangent: v3(a) })]
+        vec![frame_from_uv::handedness(
+            v3(a),
+            Tangents {
+                tangent: v3(a),
+                bitangent: v3(a),
+            },
+        )]
     }),
     ("length_of", |a| vec![length_of(v3(a))]),
     ("combine_frame", |a| {
         let (tangent, bitangent, normal, v) = (v3(a), v3(a), v3(a), v3(a));
         out3(v.x * tangent + v.y * bitangent + v.z * normal)
     }),
-    ("frame_mikktspace", |a| out3(frame_mikktspace::combine(v3(a), v4(a), v3(a)))),
+    ("frame_mikktspace", |a| {
+        out3(frame_mikktspace::combine(v3(a), v4(a), v3(a)))
+    }),
     ("height_to_normal", |a| {
-        out3(height_to_normal::normal(a.scalar(), a.scalar(), a.scalar(), a.scalar(), v2(a)))
+        out3(height_to_normal::normal(
+            a.scalar(),
+            a.scalar(),
+            a.scalar(),
+            a.scalar(),
+            v2(a),
+        ))
     }),
     ("height_to_normal_forward", |a| {
-        out3(height_to_normal_forward::normal_hardened(a.scalar(), a.scalar(), a.scalar(), v2(a)))
+        out3(height_to_normal_forward::normal_hardened(
+            a.scalar(),
+            a.scalar(),
+            a.scalar(),
+            v2(a),
+        ))
     }),
     ("height_to_normal_forward_published", |a| {
-        out3(height_to_normal_forward::normal_published(a.scalar(), a.scalar(), a.scalar(), a.scalar()))
+        out3(height_to_normal_forward::normal_published(
+            a.scalar(),
+            a.scalar(),
+            a.scalar(),
+            a.scalar(),
+        ))
     }),
-    ("light_to_tangent", |a| out3(light_to_tangent::to_tangent(v3(a), v3(a), v3(a), v3(a)))),
-    ("light_to_tangent_world_space", |a| out3(light_to_tangent::world(v3(a), v4(a), v3(a)))),
-    ("light_to_tangent_object_space", |a| out3(light_to_tangent::object(v3(a), v4(a), v3(a), v3(a), m4(a)))),
-    ("normal_transform", |a| out3(normalize(normal_transform::hardened(m3(a), v3(a), DVec4::X).normal))),
+    ("light_to_tangent", |a| {
+        out3(light_to_tangent::to_tangent(v3(a), v3(a), v3(a), v3(a)))
+    }),
+    ("light_to_tangent_world_space", |a| {
+        out3(light_to_tangent::world(v3(a), v4(a), v3(a)))
+    }),
+    ("light_to_tangent_object_space", |a| {
+        out3(light_to_tangent::object(v3(a), v4(a), v3(a), v3(a), m4(a)))
+    }),
+    ("normal_transform", |a| {
+        out3(normalize(
+            normal_transform::hardened(m3(a), v3(a), DVec4::X).normal,
+        ))
+    }),
     ("normal_transform_by_cofactor", |a| {
         let (cofactor, mirror) = (m3(a), a.scalar());
         out3(normalize_or_zero(mirror * (cofactor * v3(a))))
     }),
-    ("normal_transform_published", |a| out3(normal_transform::published(m3(a), v3(a), DVec4::X).normal)),
+    ("normal_transform_published", |a| {
+        out3(normal_transform::published(m3(a), v3(a), DVec4::X).normal)
+    }),
     ("tangent_transform", |a| out3(normalize_or_zero(m3(a) * v3(a)))),
     ("tangent_transform_published", |a| out3(m3(a) * v3(a))),
     ("parallax_offset", |a| {
@@ -125,12 +197,18 @@ fn resolve_edge(a: A<'_, '_>) -> Vec<f64> {
 
 /// |v|, and 0 where no component reaches the smallest normal f32.
 fn length_of(v: DVec3) -> f64 {
-    if v.abs().max_element() < SMALLEST_NORMAL_F32 { 0.0 } else { v.length() }
+    if v.abs().max_element() < SMALLEST_NORMAL_F32 {
+        0.0
+    } else {
+        v.length()
+    }
 }
 
 /// The largest component of each column, not below the smallest normal f32.
 fn column_scales(linear: DMat3) -> DVec3 {
-    let largest = linear.to_cols_array_2d().map(|c| DVec3::from_array(c).abs().max_element());
+    let largest = linear
+        .to_cols_array_2d()
+        .map(|c| DVec3::from_array(c).abs().max_element());
     DVec3::from_array(largest).max(DVec3::splat(SMALLEST_NORMAL_F32))
 }
 
@@ -143,7 +221,11 @@ fn scaled_cofactor(linear: DMat3, v: DVec3) -> DVec3 {
 
 fn blinn(a: A<'_, '_>, form: fn(DVec3, DVec3, DVec3, &blinn_phong::Reflectance) -> DVec3) -> Vec<f64> {
     let (normal, light, view) = (v3(a), v3(a), v3(a));
-    let surface = blinn_phong::Reflectance { diffuse: v3(a), specular: v3(a), shininess: a.scalar() };
+    let surface = blinn_phong::Reflectance {
+        diffuse: v3(a),
+        specular: v3(a),
+        shininess: a.scalar(),
+    };
     out3(form(normal, light, view, &surface))
 }
 
@@ -160,7 +242,13 @@ fn frame_from_uv_triangle_published(a: A<'_, '_>) -> Vec<f64> {
 }
 
 fn triangle_outputs(normal: DVec3, share: Tangents, weight: f64) -> Vec<f64> {
-    [out3(normal), out3(share.tangent), out3(share.bitangent), vec![weight]].concat()
+    [
+        out3(normal),
+        out3(share.tangent),
+        out3(share.bitangent),
+        vec![weight],
+    ]
+    .concat()
 }
 
 fn each3(a: A<'_, '_>, f: fn(f64) -> f64) -> Vec<f64> {

@@ -57,7 +57,11 @@ fn body(report: &Report) -> Markup {
 
 fn summary(report: &Report) -> Markup {
     let totals = report.totals();
-    let verdict = if report.is_ok() { "Nothing failed." } else { "This run did not pass." };
+    let verdict = if report.is_ok() {
+        "Nothing failed."
+    } else {
+        "This run did not pass."
+    };
     let share = 100.0 * (totals.undecided + totals.forked) as f64 / totals.outputs.max(1) as f64;
     html! {
         section aria-labelledby="summary" {
@@ -79,7 +83,11 @@ fn summary(report: &Report) -> Markup {
 
 /// Techniques down, routes and adapters across.
 fn matrix(report: &Report) -> Markup {
-    let columns: BTreeSet<(Route, &str)> = report.cases.iter().map(|c| (c.route, c.adapter.as_str())).collect();
+    let columns: BTreeSet<(Route, &str)> = report
+        .cases
+        .iter()
+        .map(|c| (c.route, c.adapter.as_str()))
+        .collect();
     html! {
         section aria-labelledby="matrix" {
             h2 id="matrix" { "Techniques" }
@@ -114,8 +122,13 @@ fn cell<'a>(cases: impl Iterator<Item = &'a CaseResult>) -> Markup {
         return html! { td class="skip" { "not run" } };
     }
     let totals = Totals::of(cases.iter().copied());
-    let gravest = cases.iter().fold(Verdict::Pass, |gravest, case| gravest.graver(case.verdict));
-    let worst = cases.iter().filter_map(|case| case.worst.as_ref()?.of_bound).fold(0.0, f64::max);
+    let gravest = cases
+        .iter()
+        .fold(Verdict::Pass, |gravest, case| gravest.graver(case.verdict));
+    let worst = cases
+        .iter()
+        .filter_map(|case| case.worst.as_ref()?.of_bound)
+        .fold(0.0, f64::max);
     html! {
         td class=(gravest.as_str()) {
             strong { (gravest.label()) } " "
@@ -224,6 +237,11 @@ fn percent(share: f64) -> String {
 /// Digits in groups of three, with a space that does not break.
 fn grouped(n: usize) -> String {
     let digits = n.to_string();
-    let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|g| std::str::from_utf8(g).ok()).collect();
+    let groups: Vec<&str> = digits
+        .as_bytes()
+        .rchunks(3)
+        .rev()
+        .filter_map(|g| std::str::from_utf8(g).ok())
+        .collect();
     groups.join("\u{202f}")
 }

@@ -15,7 +15,11 @@ pub struct Number(pub f64);
 
 impl Serialize for Number {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        if self.0.is_finite() { serializer.serialize_f64(self.0) } else { serializer.serialize_str(&self.to_string()) }
+        if self.0.is_finite() {
+            serializer.serialize_f64(self.0)
+        } else {
+            serializer.serialize_str(&self.to_string())
+        }
     }
 }
 
@@ -59,9 +63,15 @@ struct Document<'a> {
 /// # Errors
 /// [`Error::Report`] when the serializer refuses, which no report is known to cause.
 pub fn write(report: &Report) -> Result<String, Error> {
-    let document =
-        Document { schema: SCHEMA, environment: &report.environment, totals: report.totals(), cases: &report.cases };
-    let text = serde_json::to_string_pretty(&document)
-        .map_err(|error| Error::Report { format: "JSON", message: error.to_string() })?;
+    let document = Document {
+        schema: SCHEMA,
+        environment: &report.environment,
+        totals: report.totals(),
+        cases: &report.cases,
+    };
+    let text = serde_json::to_string_pretty(&document).map_err(|error| Error::Report {
+        format: "JSON",
+        message: error.to_string(),
+    })?;
     Ok(text + "\n")
 }

@@ -20,10 +20,16 @@ pub fn write(report: &Report) -> Result<String, Error> {
     let mut suites: BTreeMap<String, TestSuite> = BTreeMap::new();
     for case in &report.cases {
         let name = format!("{} on {}", case.route, case.adapter);
-        suites.entry(name.clone()).or_insert_with(|| TestSuite::new(name)).add_test_case(test_case(case));
+        suites
+            .entry(name.clone())
+            .or_insert_with(|| TestSuite::new(name))
+            .add_test_case(test_case(case));
     }
     document.add_test_suites(suites.into_values());
-    document.to_string().map_err(|error| Error::Report { format: "JUnit", message: error.to_string() })
+    document.to_string().map_err(|error| Error::Report {
+        format: "JUnit",
+        message: error.to_string(),
+    })
 }
 
 fn test_case(case: &CaseResult) -> TestCase {
@@ -37,7 +43,10 @@ fn test_case(case: &CaseResult) -> TestCase {
         }
         Verdict::Fail => {
             let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-            status.set_message(reason.clone()).set_type("conformance").set_description(details(case));
+            status
+                .set_message(reason.clone())
+                .set_type("conformance")
+                .set_description(details(case));
             status
         }
     };
@@ -52,5 +61,9 @@ fn test_case(case: &CaseResult) -> TestCase {
 /// What a failure says: the worst output and how to see it again.
 fn details(case: &CaseResult) -> String {
     let worst = case.worst.as_ref().map(ToString::to_string).unwrap_or_default();
-    format!("{}\n{worst}\nrun again: {}", case.reason.as_deref().unwrap_or_default(), case.rerun())
+    format!(
+        "{}\n{worst}\nrun again: {}",
+        case.reason.as_deref().unwrap_or_default(),
+        case.rerun()
+    )
 }

@@ -56,16 +56,33 @@ impl CaseResult {
     pub fn rerun(&self) -> String {
         let quoted = |text: &str| format!("'{}'", text.replace('\'', "'\\''"));
         let plain = |c: char| c.is_ascii_alphanumeric() || "-_./".contains(c);
-        let as_needed = |text: &String| if text.chars().all(plain) { text.clone() } else { quoted(text) };
+        let as_needed = |text: &String| {
+            if text.chars().all(plain) {
+                text.clone()
+            } else {
+                quoted(text)
+            }
+        };
         let (id, adapter) = (quoted(&self.id.to_string()), quoted(&self.adapter));
-        let besides: String = self.arguments.iter().map(|argument| format!(" {}", as_needed(argument))).collect();
-        format!("bossage conform {id} --route {} --adapter {adapter}{besides}", self.route)
+        let besides: String = self
+            .arguments
+            .iter()
+            .map(|argument| format!(" {}", as_needed(argument)))
+            .collect();
+        format!(
+            "bossage conform {id} --route {} --adapter {adapter}{besides}",
+            self.route
+        )
     }
 
     /// The share of outputs on which nothing or two things are allowed.
     #[must_use]
     pub fn undecided_share(&self) -> f64 {
-        if self.outputs == 0 { 0.0 } else { (self.undecided + self.forked) as f64 / self.outputs as f64 }
+        if self.outputs == 0 {
+            0.0
+        } else {
+            (self.undecided + self.forked) as f64 / self.outputs as f64
+        }
     }
 }
 
@@ -167,7 +184,9 @@ impl Report {
     pub fn by_technique(&self) -> BTreeMap<(String, Option<String>), Vec<&CaseResult>> {
         let mut rows: BTreeMap<_, Vec<&CaseResult>> = BTreeMap::new();
         for case in &self.cases {
-            rows.entry((case.id.technique.clone(), case.id.form.clone())).or_default().push(case);
+            rows.entry((case.id.technique.clone(), case.id.form.clone()))
+                .or_default()
+                .push(case);
         }
         rows
     }

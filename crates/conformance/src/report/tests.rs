@@ -10,7 +10,14 @@ use crate::verdict::Verdict;
 
 fn worst(got: f32) -> Option<Worst> {
     let mut comparison = Comparison::default();
-    comparison.item(&[0.5, f32::INFINITY], &[got], &[Expected { truth: 1.0, bound: Bounded::within(1.0, 0.1) }]);
+    comparison.item(
+        &[0.5, f32::INFINITY],
+        &[got],
+        &[Expected {
+            truth: 1.0,
+            bound: Bounded::within(1.0, 0.1),
+        }],
+    );
     comparison.worst
 }
 
@@ -48,7 +55,13 @@ pub(crate) fn sample() -> Report {
         driver: "llvmpipe Mesa 1".to_owned(),
         llvm: Some("15".to_owned()),
     };
-    Report::new(Environment { adapters: vec![adapter], ..Environment::of(&[]) }, cases)
+    Report::new(
+        Environment {
+            adapters: vec![adapter],
+            ..Environment::of(&[])
+        },
+        cases,
+    )
 }
 
 #[test]
@@ -88,7 +101,9 @@ fn json_holds_the_promised_keys_and_survives_numbers_that_json_lacks() {
     assert_eq!(document["totals"]["expected_fail"], 1);
     let cases = document["cases"].as_array().unwrap();
     for case in cases {
-        for key in ["id", "route", "adapter", "basis", "outputs", "verdict", "worst", "reason", "rerun"] {
+        for key in [
+            "id", "route", "adapter", "basis", "outputs", "verdict", "worst", "reason", "rerun",
+        ] {
             assert!(case.get(key).is_some(), "{key}");
         }
         for key in ["ulp", "abs", "input", "got", "interval"] {
@@ -115,9 +130,15 @@ fn junit_has_a_suite_a_route_and_one_failure() {
 fn html_escapes_names_and_leaves_no_cell_empty() {
     let page = html::write(&sample());
     assert!(page.contains("llvmpipe &lt;1&gt;") && !page.contains("llvmpipe <1>"));
-    assert!(page.contains("not run"), "the route on which dot3 did not run says so");
+    assert!(
+        page.contains("not run"),
+        "the route on which dot3 did not run says so"
+    );
     assert!(!page.contains("<td></td>") && !page.contains("<th scope=\"col\"></th>"));
-    assert!(page.contains("bossage conform"), "a failure says how to run it again");
+    assert!(
+        page.contains("bossage conform"),
+        "a failure says how to run it again"
+    );
     for verdict in Verdict::ALL {
         assert!(page.contains(verdict.label()), "{verdict:?}");
     }

@@ -64,7 +64,10 @@ impl FromStr for Route {
 
     fn from_str(text: &str) -> Result<Self, Error> {
         let found = Self::ALL.into_iter().find(|route| route.name() == text);
-        found.ok_or_else(|| Error::NoSuchRoute { given: text.to_owned(), known: Self::ALL.map(Self::name).to_vec() })
+        found.ok_or_else(|| Error::NoSuchRoute {
+            given: text.to_owned(),
+            known: Self::ALL.map(Self::name).to_vec(),
+        })
     }
 }
 
@@ -89,14 +92,20 @@ impl Prepared {
     /// # Errors
     /// When the module lacks it.
     pub fn shader(&self, entry: &str) -> Result<Shader<'_>, String> {
-        let described = self.manifest.entry(entry).ok_or_else(|| format!("the manifest has no entry point `{entry}`"))?;
+        let described = self
+            .manifest
+            .entry(entry)
+            .ok_or_else(|| format!("the manifest has no entry point `{entry}`"))?;
         let found = self.code.iter().find(|(name, _)| name == entry);
         let (_, text) = found.ok_or_else(|| format!("no code was made for entry point `{entry}`"))?;
         let code = match text {
             Text::Wgsl(text) => Code::Wgsl(text),
             Text::Spirv(bytes) => Code::Spirv(bytes),
         };
-        Ok(Shader { code, entry: described })
+        Ok(Shader {
+            code,
+            entry: described,
+        })
     }
 }
 

@@ -12,5 +12,8 @@ pub(super) fn prepare(shader: &Shader) -> Result<Prepared, String> {
         Contents::Text(_) => Err(format!("{} is text where SPIR-V is expected", file.file_name)),
     });
     let code = code.collect::<Result<_, _>>()?;
-    Ok(Prepared { manifest: manifest(shader, &options, &[emitted]), code })
+    Ok(Prepared {
+        manifest: manifest(shader, &options, &[emitted]),
+        code,
+    })
 }

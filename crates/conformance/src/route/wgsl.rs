@@ -7,6 +7,11 @@ use super::{Prepared, Text};
 
 pub(super) fn prepare(shader: &Shader, assembled: &AssembledShader) -> Prepared {
     let manifest = manifest(shader, &EmitOptions::default(), &[]);
-    let entries = shader.entry_points().map(|(name, _)| (name.to_owned(), Text::Wgsl(assembled.wgsl.clone())));
-    Prepared { code: entries.collect(), manifest }
+    let entries = shader
+        .entry_points()
+        .map(|(name, _)| (name.to_owned(), Text::Wgsl(assembled.wgsl.clone())));
+    Prepared {
+        code: entries.collect(),
+        manifest,
+    }
 }

@@ -38,13 +38,18 @@ struct BakeCase {
 /// The fields by name: rough and smooth, with sides that are no multiples of a workgroup, and the smallest there are.
 fn fields() -> Vec<(&'static str, HeightField)> {
     let mut rng = stream("bake", 1);
-    let noise: Vec<f32> = (0..61 * 37).map(|_| rng.random_range(0..=255u32) as f32 / 255.0).collect();
+    let noise: Vec<f32> = (0..61 * 37)
+        .map(|_| rng.random_range(0..=255u32) as f32 / 255.0)
+        .collect();
     let waves = |x: u32, y: u32| {
         let phase = |i: u32, n: f32| std::f32::consts::TAU * i as f32 / n;
         0.5 + 0.25 * phase(x, 64.0).sin() + 0.25 * phase(y, 24.0).cos()
     };
     vec![
-        ("noise", HeightField::from_fn(61, 37, |x, y| noise[(y * 61 + x) as usize])),
+        (
+            "noise",
+            HeightField::from_fn(61, 37, |x, y| noise[(y * 61 + x) as usize]),
+        ),
         ("waves", HeightField::from_fn(128, 96, waves)),
         ("flat", HeightField::from_fn(9, 9, |_, _| 0.25)),
         ("one", HeightField::from_fn(1, 1, |_, _| 1.0)),
@@ -56,7 +61,11 @@ fn fields() -> Vec<(&'static str, HeightField)> {
 pub fn cases() -> impl Iterator<Item = Box<dyn Case>> {
     let mut cases: Vec<Box<dyn Case>> = Vec::new();
     for (name, field) in fields() {
-        for kernel in [Kernel::HeightToNormal, Kernel::HeightToNormalForward, Kernel::HeightToNormalForwardPublished] {
+        for kernel in [
+            Kernel::HeightToNormal,
+            Kernel::HeightToNormalForward,
+            Kernel::HeightToNormalForwardPublished,
+        ] {
             for (edge, codec) in variants(kernel) {
                 cases.push(Box::new(BakeCase::new(name, kernel, field.clone(), edge, codec)));
             }
@@ -70,7 +79,10 @@ fn variants(kernel: Kernel) -> Vec<(EdgeMode, NormalCodec)> {
         return vec![(EdgeMode::Clamp, NormalCodec::Biased)];
     }
     let edges = [EdgeMode::Wrap, EdgeMode::Mirror, EdgeMode::Clamp];
-    edges.into_iter().flat_map(|edge| [NormalCodec::Unorm, NormalCodec::Biased].map(|codec| (edge, codec))).collect()
+    edges
+        .into_iter()
+        .flat_map(|edge| [NormalCodec::Unorm, NormalCodec::Biased].map(|codec| (edge, codec)))
+        .collect()
 }
 
 impl BakeCase {
@@ -89,7 +101,13 @@ impl BakeCase {
             };
             id = id.with("edge", edge.name()).with("codec", codec);
         }
-        Self { id, kernel, field, edge, codec }
+        Self {
+            id,
+            kernel,
+            field,
+            edge,
+            codec,
+        }
     }
 
     /// The settings of the hardened bakes.
@@ -102,17 +120,24 @@ impl BakeCase {
 
     fn twin(&self) -> Result<NormalMap, Error> {
         match self.kernel {
-            Kernel::HeightToNormalForwardPublished => Ok(height_to_normal_forward::bake(&self.field, PUBLISHED_SCALE)),
+            Kernel::HeightToNormalForwardPublished => {
+                Ok(height_to_normal_forward::bake(&self.field, PUBLISHED_SCALE))
+            }
             _ => Ok(height_to_normal::bake(&self.field, &self.bake()?)),
         }
     }
 
     fn uniforms(&self) -> Result<[(String, Vec<f32>); 4], Error> {
         let bake = self.bake()?;
-        let edge = [EdgeMode::Wrap, EdgeMode::Mirror, EdgeMode::Clamp].iter().position(|edge| *edge == self.edge);
+        let edge = [EdgeMode::Wrap, EdgeMode::Mirror, EdgeMode::Clamp]
+            .iter()
+            .position(|edge| *edge == self.edge);
         Ok([
             ("bake.slope".to_owned(), bake.slope.to_vec()),
-            ("bake.byte_scale_offset".to_owned(), bake.byte_scale_offset().to_vec()),
+            (
+                "bake.byte_scale_offset".to_owned(),
+                bake.byte_scale_offset().to_vec(),
+            ),
             ("bake.edge_mode".to_owned(), vec![edge.unwrap_or(0) as f32]),
             ("bake.height_scale".to_owned(), vec![PUBLISHED_SCALE]),
         ])
@@ -123,13 +148,23 @@ impl BakeCase {
         let module = bench.module(kernel.entry(), |library| library.assemble_kernel(kernel))?;
         let texture = TextureData::r32f(self.field.width, self.field.height, &self.field.texels);
         let mut resources = Resources::default();
-        resources.uniforms.extend(self.uniforms().map_err(|error| with_causes(&error))?);
+        resources
+            .uniforms
+            .extend(self.uniforms().map_err(|error| with_causes(&error))?);
         resources.textures.insert("height_map".to_owned(), &texture);
-        resources.buffers.insert("texels".to_owned(), BufferData::Output(4 * self.field.texels.len()));
+        resources.buffers.insert(
+            "texels".to_owned(),
+            BufferData::Output(4 * self.field.texels.len()),
+        );
         let [x, y, _] = kernel.workgroup_size();
         let workgroups = [self.field.width.div_ceil(x), self.field.height.div_ceil(y), 1];
         let name = self.id.to_string();
-        let job = ComputeJob { name: &name, shader: module.shader(kernel.entry())?, resources, workgroups };
+        let job = ComputeJob {
+            name: &name,
+            shader: module.shader(kernel.entry())?,
+            resources,
+            workgroups,
+        };
         let output = job.run(bench.device).map_err(|error| with_causes(&error))?;
         Ok(output.words("texels").into_iter().map(u32::to_le_bytes).collect())
     }
@@ -142,7 +177,10 @@ impl BakeCase {
         let bake = self.bake()?;
         let h = |dx: i64, dy: i64| {
             let (i, j) = (i64::from(x) + dx, i64::from(y) + dy);
-            self.field.texel(self.edge.resolve(i, self.field.width), self.edge.resolve(j, self.field.height))
+            self.field.texel(
+                self.edge.resolve(i, self.field.width),
+                self.edge.resolve(j, self.field.height),
+            )
         };
         let slope = DVec2::new(f64::from(bake.slope[0]), f64::from(bake.slope[1]));
         let (truth, function, heights) = match self.kernel {
@@ -168,19 +206,40 @@ impl BakeCase {
         let byte = |x, y| (f64::from(field.texel(x, y)) * 255.0).round() as f32;
         let here = byte(x, y);
         // The flat border is the normal of three equal heights.
-        let (row, column) = if inner { (byte(x, y + 1), byte(x + 1, y)) } else { (here, here) };
+        let (row, column) = if inner {
+            (byte(x, y + 1), byte(x + 1, y))
+        } else {
+            (here, here)
+        };
         let arguments = [here, row, column, PUBLISHED_SCALE];
-        self.bytes(truth, "height_to_normal_forward_published", &arguments, [127.0, 128.0], field.texel(x, y))
+        self.bytes(
+            truth,
+            "height_to_normal_forward_published",
+            &arguments,
+            [127.0, 128.0],
+            field.texel(x, y),
+        )
     }
 
     /// Bytes of the normal by trunc(n·k + o), and of the height.
-    fn bytes(&self, truth: DVec3, function: &str, arguments: &[f32], [k, o]: [f32; 2], height: f32) -> [Expected; 4] {
+    fn bytes(
+        &self,
+        truth: DVec3,
+        function: &str,
+        arguments: &[f32],
+        [k, o]: [f32; 2],
+        height: f32,
+    ) -> [Expected; 4] {
         let arguments: Vec<Bounded> = arguments.iter().copied().map(Bounded::input).collect();
-        let bounds = tolerance::find(function).map(|row| (row.bound)(&mut crate::oracle::Args::new(&arguments)));
+        let bounds =
+            tolerance::find(function).map(|row| (row.bound)(&mut crate::oracle::Args::new(&arguments)));
         let bounds = bounds.unwrap_or_default();
         let byte = |n: f64, bound: Bounded, [k, o]: [f32; 2]| {
             let coded = bound * Bounded::exact(k) + Bounded::exact(o);
-            Expected { truth: (n * f64::from(k) + f64::from(o)).trunc(), bound: coded.trunc() }
+            Expected {
+                truth: (n * f64::from(k) + f64::from(o)).trunc(),
+                bound: coded.trunc(),
+            }
         };
         let of = |i: usize| byte(truth[i], bounds.get(i).copied().unwrap_or(Bounded::OPEN), [k, o]);
         let alpha = byte(f64::from(height), Bounded::input(height), [255.0, 0.5]);
@@ -188,9 +247,16 @@ impl BakeCase {
     }
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
-        let (kernel, twin) = (self.texels(bench)?, self.twin().map_err(|error| with_causes(&error))?);
+        let (kernel, twin) = (
+            self.texels(bench)?,
+            self.twin().map_err(|error| with_causes(&error))?,
+        );
         if kernel.len() != twin.texels.len() {
-            return Err(format!("the kernel wrote {} texels of {}", kernel.len(), twin.texels.len()));
+            return Err(format!(
+                "the kernel wrote {} texels of {}",
+                kernel.len(),
+                twin.texels.len()
+            ));
         }
         let (mut comparison, mut different) = (Comparison::default(), 0);
         for (index, (got, twin)) in kernel.iter().zip(&twin.texels).enumerate() {
@@ -203,9 +269,16 @@ impl BakeCase {
         }
         // The published codec truncates 127·1 + 128 = 255, so each flat texel lies on a boundary: its border alone is undecided.
         let published = self.kernel == Kernel::HeightToNormalForwardPublished;
-        let limit = if published { 1.0 } else { tolerance::UNDECIDED_LIMIT };
+        let limit = if published {
+            1.0
+        } else {
+            tolerance::UNDECIDED_LIMIT
+        };
         let outcome = Outcome::of(kernel.len(), comparison, limit);
-        let note = format!("{different} of {} bytes differ from the twin, each next to a rounding boundary", 4 * kernel.len());
+        let note = format!(
+            "{different} of {} bytes differ from the twin, each next to a rounding boundary",
+            4 * kernel.len()
+        );
         let reason = outcome.reason.clone().or((different > 0).then_some(note));
         Ok(Outcome { reason, ..outcome })
     }

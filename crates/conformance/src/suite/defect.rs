@@ -79,7 +79,11 @@ pub const DEFECTS: &[Defect] = &[
         hardened: Some("parallax_offset"),
         witness: &[0.5, 0.5, 0.02, 0.8, 0.0, -0.6],
         cured_witness: None,
-        property: |out| ensure(out[0] >= 0.5, || format!("a view along +u shifts to {}, along −u", out[0])),
+        property: |out| {
+            ensure(out[0] >= 0.5, || {
+                format!("a view along +u shifts to {}, along −u", out[0])
+            })
+        },
         evidence: Evidence::Output,
         about: "for V.z < 0 the shift turns round",
     },
@@ -97,11 +101,15 @@ pub const DEFECTS: &[Defect] = &[
         name: "opposite_light",
         published: "blinn_phong_published",
         hardened: Some("blinn_phong"),
-        witness: &[0.6, 0.0, 0.8, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.5, 0.5, 0.5, 1.0, 1.0, 1.0, 16.0],
+        witness: &[
+            0.6, 0.0, 0.8, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.5, 0.5, 0.5, 1.0, 1.0, 1.0, 16.0,
+        ],
         cured_witness: None,
         property: |out| {
             let diffuse = 0.3;
-            ensure(out.iter().all(|c| (c - diffuse).abs() < 1e-5), || format!("without a half vector only the diffuse 0.3 is due, not {out:?}"))
+            ensure(out.iter().all(|c| (c - diffuse).abs() < 1e-5), || {
+                format!("without a half vector only the diffuse 0.3 is due, not {out:?}")
+            })
         },
         evidence: Evidence::Rules,
         about: "L = −V makes the highlight pow(NaN, p): the diffuse colour may be lost or a full highlight appear",
@@ -112,7 +120,11 @@ pub const DEFECTS: &[Defect] = &[
         hardened: Some("dot3"),
         witness: &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0],
         cured_witness: None,
-        property: |out| ensure(out.iter().all(|c| *c == 0.0), || format!("no light gives {out:?}")),
+        property: |out| {
+            ensure(out.iter().all(|c| *c == 0.0), || {
+                format!("no light gives {out:?}")
+            })
+        },
         evidence: Evidence::Rules,
         about: "L = 0 is normalised to 0/0",
     },
@@ -152,7 +164,11 @@ pub const DEFECTS: &[Defect] = &[
         hardened: Some("codec_biased_encode"),
         witness: &[0.9 / 127.0, 0.0, 1.0],
         cured_witness: None,
-        property: |out| ensure((out[0] - 128.9).abs() <= 0.5, || format!("128.9 is encoded as {}", out[0])),
+        property: |out| {
+            ensure((out[0] - 128.9).abs() <= 0.5, || {
+                format!("128.9 is encoded as {}", out[0])
+            })
+        },
         evidence: Evidence::Output,
         about: "truncation errs by up to a whole step instead of half of one",
     },
@@ -162,7 +178,11 @@ pub const DEFECTS: &[Defect] = &[
         hardened: None,
         witness: &[128.0 / 255.0, 127.0 / 255.0, 1.0],
         cured_witness: None,
-        property: |out| ensure(out[0] == 0.0 || out[1] == 0.0, || format!("bytes 128 and 127 decode to {} and {}", out[0], out[1])),
+        property: |out| {
+            ensure(out[0] == 0.0 || out[1] == 0.0, || {
+                format!("bytes 128 and 127 decode to {} and {}", out[0], out[1])
+            })
+        },
         evidence: Evidence::Output,
         about: "no byte stands for 0: a flat map tilts by 0.318°",
     },
@@ -173,7 +193,11 @@ pub const DEFECTS: &[Defect] = &[
         // A rise to the next column, none to the next row.
         witness: &[0.0, 0.0, 1.0, 1.0],
         cured_witness: Some(&[0.0, 1.0, 0.0, 1.0, 1.0]),
-        property: |out| ensure(out[0] < 0.0 && out[1] == 0.0, || format!("a slope along u gives ({}, {})", out[0], out[1])),
+        property: |out| {
+            ensure(out[0] < 0.0 && out[1] == 0.0, || {
+                format!("a slope along u gives ({}, {})", out[0], out[1])
+            })
+        },
         evidence: Evidence::Output,
         about: "the first axis is the row: a slope along u lands in green",
     },
@@ -217,7 +241,9 @@ pub const DEFECTS: &[Defect] = &[
         property: |out| {
             let across = out[0] * (4.0 * 0.6) + out[2] * -0.8;
             let length = out.iter().map(|x| x * x).sum::<f32>().sqrt();
-            ensure((across / length).abs() < 1e-5, || format!("the normal {out:?} leans {across} out of the surface"))
+            ensure((across / length).abs() < 1e-5, || {
+                format!("the normal {out:?} leans {across} out of the surface")
+            })
         },
         evidence: Evidence::Output,
         about: "under non-uniform scale the normal is no longer perpendicular to the surface",
@@ -228,7 +254,14 @@ pub const DEFECTS: &[Defect] = &[
         hardened: Some("highlight_power"),
         witness: &[0.0, 0.0],
         cured_witness: None,
-        property: |out| ensure(out[0] == 0.0, || format!("a surface that the half vector does not face shines with {}", out[0])),
+        property: |out| {
+            ensure(out[0] == 0.0, || {
+                format!(
+                    "a surface that the half vector does not face shines with {}",
+                    out[0]
+                )
+            })
+        },
         evidence: Evidence::Rules,
         about: "pow(0, 0) is left open by the language",
     },
@@ -244,7 +277,9 @@ fn finite(out: &[f32]) -> Result<(), String> {
 
 /// A shift of at most one tile from the middle of the texture.
 fn within_a_tile(out: &[f32]) -> Result<(), String> {
-    ensure(out.iter().all(|x| (x - 0.5).abs() <= 1.0), || format!("uv {out:?}"))
+    ensure(out.iter().all(|x| (x - 0.5).abs() <= 1.0), || {
+        format!("uv {out:?}")
+    })
 }
 
 /// Unit length to a part in 10⁵: f32 rounding leaves below 1e-6, the defects are off by 1 or NaN.
@@ -265,8 +300,13 @@ struct DefectCase {
 pub fn cases() -> impl Iterator<Item = Box<dyn Case>> {
     DEFECTS.iter().flat_map(|defect| {
         let shown = DefectCase::new(defect, defect.published, false);
-        let cured = defect.hardened.and_then(|function| DefectCase::new(defect, function, true));
-        shown.into_iter().chain(cured).map(|case| Box::new(case) as Box<dyn Case>)
+        let cured = defect
+            .hardened
+            .and_then(|function| DefectCase::new(defect, function, true));
+        shown
+            .into_iter()
+            .chain(cured)
+            .map(|case| Box::new(case) as Box<dyn Case>)
     })
 }
 
@@ -274,7 +314,12 @@ impl DefectCase {
     fn new(defect: &'static Defect, function: &str, cured: bool) -> Option<Self> {
         let probe = PROBES.iter().find(|probe| probe.function() == function)?;
         let id = probe::id(probe, if cured { "cure" } else { "defect" }).with("defect", defect.name);
-        Some(Self { id, defect, probe, cured })
+        Some(Self {
+            id,
+            defect,
+            probe,
+            cured,
+        })
     }
 
     fn witness(&self) -> &'static [f32] {
@@ -288,8 +333,15 @@ impl DefectCase {
         let probe = self.probe;
         let module = bench.module(probe.function(), |library| library.assemble_probe(probe.id))?;
         let shader = module.shader(probe.entry)?;
-        run_probe(bench.device, shader.code, shader.entry, self.witness(), probe.output_floats, 1)
-            .map_err(|error| with_causes(&error))
+        run_probe(
+            bench.device,
+            shader.code,
+            shader.entry,
+            self.witness(),
+            probe.output_floats,
+            1,
+        )
+        .map_err(|error| with_causes(&error))
     }
 
     /// `Err` says how the defect shows. A cure must keep the property and be decided by the rules.
@@ -297,7 +349,9 @@ impl DefectCase {
         let expected = oracle::expected(self.probe, self.witness()).unwrap_or_default();
         let open = expected.iter().any(|e| !e.bound.is_decided());
         match self.defect.evidence {
-            Evidence::Rules if open => Err(format!("the accuracy rules leave the result open; this machine gives {out:?}")),
+            Evidence::Rules if open => Err(format!(
+                "the accuracy rules leave the result open; this machine gives {out:?}"
+            )),
             Evidence::Rules if !self.cured => Ok(()),
             Evidence::Rules | Evidence::Output => (self.defect.property)(out),
         }
@@ -308,15 +362,27 @@ impl DefectCase {
             return Outcome::failed("the shader did not write all outputs");
         }
         let (verdict, reason) = match (self.shown(out), self.cured) {
-            (Err(how), false) => (Verdict::ExpectedFail, Some(format!("{}: {how}", self.defect.about))),
-            (Ok(()), false) => {
-                (Verdict::Fail, Some(format!("the known defect did not show ({}); got {out:?}", self.defect.about)))
-            }
+            (Err(how), false) => (
+                Verdict::ExpectedFail,
+                Some(format!("{}: {how}", self.defect.about)),
+            ),
+            (Ok(()), false) => (
+                Verdict::Fail,
+                Some(format!(
+                    "the known defect did not show ({}); got {out:?}",
+                    self.defect.about
+                )),
+            ),
             (Err(how), true) => (Verdict::Fail, Some(format!("the cure has the defect: {how}"))),
             (Ok(()), true) => (Verdict::Pass, None),
         };
         let comparison = Comparison::of_property(out.len());
-        Outcome { inputs: 1, comparison, verdict, reason }
+        Outcome {
+            inputs: 1,
+            comparison,
+            verdict,
+            reason,
+        }
     }
 }
 
@@ -349,7 +415,11 @@ mod tests {
 
     fn case(name: &str, cured: bool) -> DefectCase {
         let defect = DEFECTS.iter().find(|defect| defect.name == name).unwrap();
-        let function = if cured { defect.hardened.unwrap() } else { defect.published };
+        let function = if cured {
+            defect.hardened.unwrap()
+        } else {
+            defect.published
+        };
         DefectCase::new(defect, function, cured).unwrap()
     }
 
@@ -370,20 +440,38 @@ mod tests {
 
     #[test]
     fn a_missing_defect_is_a_failure_and_a_shown_one_is_expected() {
-        assert_eq!(case("byte_zero", false).judge(&[-1.0, 0.0, 1.0]).verdict, Verdict::Fail);
-        assert_eq!(case("byte_zero", false).judge(&[-1.0079, 0.0, 1.0]).verdict, Verdict::ExpectedFail);
-        assert_eq!(case("byte_zero", true).judge(&[-1.0079, 0.0, 1.0]).verdict, Verdict::Fail);
-        assert_eq!(case("byte_zero", true).judge(&[-1.0, 0.0, 1.0]).verdict, Verdict::Pass);
+        assert_eq!(
+            case("byte_zero", false).judge(&[-1.0, 0.0, 1.0]).verdict,
+            Verdict::Fail
+        );
+        assert_eq!(
+            case("byte_zero", false).judge(&[-1.0079, 0.0, 1.0]).verdict,
+            Verdict::ExpectedFail
+        );
+        assert_eq!(
+            case("byte_zero", true).judge(&[-1.0079, 0.0, 1.0]).verdict,
+            Verdict::Fail
+        );
+        assert_eq!(
+            case("byte_zero", true).judge(&[-1.0, 0.0, 1.0]).verdict,
+            Verdict::Pass
+        );
     }
 
     #[test]
     fn a_defect_of_the_rules_shows_on_every_machine() {
         // A machine that clamps NaN to 0 and one that lets it through.
         for out in [[0.0; 3], [f32::NAN; 3]] {
-            assert_eq!(case("zero_light", false).judge(&out).verdict, Verdict::ExpectedFail);
+            assert_eq!(
+                case("zero_light", false).judge(&out).verdict,
+                Verdict::ExpectedFail
+            );
         }
         assert_eq!(case("zero_light", true).judge(&[0.0; 3]).verdict, Verdict::Pass);
-        assert_eq!(case("zero_light", true).judge(&[f32::NAN; 3]).verdict, Verdict::Fail);
+        assert_eq!(
+            case("zero_light", true).judge(&[f32::NAN; 3]).verdict,
+            Verdict::Fail
+        );
     }
 
     #[test]

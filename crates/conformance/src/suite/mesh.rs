@@ -33,9 +33,16 @@ fn meshes() -> Vec<(&'static str, Mesh)> {
     let mut mirrored = primitives::plane(2.0, 2.0);
     mirrored.uvs.iter_mut().for_each(|uv| uv.x = (uv.x - 0.5).abs());
     let mut flat_uv = primitives::cube(1.0);
-    flat_uv.uvs.iter_mut().take(4).for_each(|uv| *uv = Vec2::splat(0.25));
+    flat_uv
+        .uvs
+        .iter_mut()
+        .take(4)
+        .for_each(|uv| *uv = Vec2::splat(0.25));
     let mut stretched = primitives::torus(1.0, 0.25, 24, 12);
-    stretched.positions.iter_mut().for_each(|p| *p *= Vec3::new(4.0, 0.25, 1.0));
+    stretched
+        .positions
+        .iter_mut()
+        .for_each(|p| *p *= Vec3::new(4.0, 0.25, 1.0));
     vec![
         ("cube", primitives::cube(1.0)),
         ("sphere", primitives::sphere(1.0, 24, 12)),
@@ -52,7 +59,13 @@ fn meshes() -> Vec<(&'static str, Mesh)> {
 fn butterfly() -> Mesh {
     let positions = vec![Vec3::ZERO, Vec3::Y, -Vec3::X, Vec3::X];
     let uvs = vec![Vec2::ZERO, Vec2::Y, Vec2::X, Vec2::X];
-    Mesh { normals: vec![Vec3::Z; 4], positions, uvs, tangents: Vec::new(), indices: vec![0, 1, 2, 0, 3, 1] }
+    Mesh {
+        normals: vec![Vec3::Z; 4],
+        positions,
+        uvs,
+        tangents: Vec::new(),
+        indices: vec![0, 1, 2, 0, 3, 1],
+    }
 }
 
 /// A good triangle, one without area in space, and one that names a vertex twice.
@@ -60,7 +73,13 @@ fn degenerate() -> Mesh {
     let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::X * 0.5];
     let uvs = vec![Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::new(0.5, 0.25)];
     let indices = vec![0, 1, 2, 0, 1, 3, 0, 0, 2];
-    Mesh { normals: vec![Vec3::Z; 4], positions, uvs, tangents: Vec::new(), indices }
+    Mesh {
+        normals: vec![Vec3::Z; 4],
+        positions,
+        uvs,
+        tangents: Vec::new(),
+        indices,
+    }
 }
 
 /// Every mesh in both forms.
@@ -69,7 +88,11 @@ pub fn cases() -> impl Iterator<Item = Box<dyn Case>> {
     meshes().into_iter().flat_map(move |(name, mesh)| {
         both.map(|form| {
             let id = CaseId::new("frame_from_uv", Some(form.as_str()), "mesh").with("mesh", name);
-            Box::new(MeshCase { id, form, mesh: mesh.clone() }) as Box<dyn Case>
+            Box::new(MeshCase {
+                id,
+                form,
+                mesh: mesh.clone(),
+            }) as Box<dyn Case>
         })
     })
 }
@@ -99,7 +122,10 @@ fn float_bytes(values: impl IntoIterator<Item = f32>) -> Vec<u8> {
 impl MeshCase {
     fn kernels(&self) -> [Kernel; 2] {
         match self.form {
-            Form::Published => [Kernel::FrameFromUvTrianglesPublished, Kernel::FrameFromUvVerticesPublished],
+            Form::Published => [
+                Kernel::FrameFromUvTrianglesPublished,
+                Kernel::FrameFromUvVerticesPublished,
+            ],
             Form::Hardened => [Kernel::FrameFromUvTriangles, Kernel::FrameFromUvVertices],
         }
     }
@@ -109,12 +135,21 @@ impl MeshCase {
         let (offsets, triangles) = adjacency(&self.mesh);
         let word = |words: &[u32]| bytes(words, u32::to_le_bytes);
         BTreeMap::from([
-            ("positions", float_bytes(self.mesh.positions.iter().flat_map(|p| p.to_array()))),
-            ("uvs", float_bytes(self.mesh.uvs.iter().flat_map(|uv| uv.to_array()))),
+            (
+                "positions",
+                float_bytes(self.mesh.positions.iter().flat_map(|p| p.to_array())),
+            ),
+            (
+                "uvs",
+                float_bytes(self.mesh.uvs.iter().flat_map(|uv| uv.to_array())),
+            ),
             ("indices", word(&self.mesh.indices)),
             ("adjacency_offsets", word(&offsets)),
             ("adjacency_triangles", word(&triangles)),
-            ("normals", float_bytes(self.mesh.normals.iter().flat_map(|n| n.to_array()))),
+            (
+                "normals",
+                float_bytes(self.mesh.normals.iter().flat_map(|n| n.to_array())),
+            ),
         ])
     }
 
@@ -131,13 +166,25 @@ impl MeshCase {
         let shader = module.shader(kernel.entry())?;
         let mut resources = Resources::default();
         for (name, bytes) in buffers.iter().filter(|(name, _)| shader.binding(name).is_some()) {
-            resources.buffers.insert((*name).to_owned(), BufferData::Bytes(bytes));
+            resources
+                .buffers
+                .insert((*name).to_owned(), BufferData::Bytes(bytes));
         }
-        resources.buffers.insert(output.0.to_owned(), BufferData::Output(output.1));
+        resources
+            .buffers
+            .insert(output.0.to_owned(), BufferData::Output(output.1));
         let name = self.id.to_string();
         let workgroups = [(items as u32).div_ceil(kernel.workgroup_size()[0]), 1, 1];
-        let job = ComputeJob { name: &name, shader, resources, workgroups };
-        Ok(job.run(bench.device).map_err(|error| with_causes(&error))?.buffers)
+        let job = ComputeJob {
+            name: &name,
+            shader,
+            resources,
+            workgroups,
+        };
+        Ok(job
+            .run(bench.device)
+            .map_err(|error| with_causes(&error))?
+            .buffers)
     }
 
     /// The tangents, four floats a vertex.
@@ -145,11 +192,28 @@ impl MeshCase {
         let [triangles, vertices] = self.kernels();
         let (triangle_count, vertex_count) = (self.mesh.indices.len() / 3, self.mesh.positions.len());
         let mut buffers = self.buffers();
-        let written = self.dispatch(bench, triangles, &buffers, ("frames", 48 * triangle_count), triangle_count)?;
-        let frames = written.get("frames").cloned().ok_or("the triangle pass wrote no frames")?;
+        let written = self.dispatch(
+            bench,
+            triangles,
+            &buffers,
+            ("frames", 48 * triangle_count),
+            triangle_count,
+        )?;
+        let frames = written
+            .get("frames")
+            .cloned()
+            .ok_or("the triangle pass wrote no frames")?;
         buffers.insert("frames", frames);
-        let written = self.dispatch(bench, vertices, &buffers, ("tangents", 16 * vertex_count), vertex_count)?;
-        let tangents = written.get("tangents").ok_or("the vertex pass wrote no tangents")?;
+        let written = self.dispatch(
+            bench,
+            vertices,
+            &buffers,
+            ("tangents", 16 * vertex_count),
+            vertex_count,
+        )?;
+        let tangents = written
+            .get("tangents")
+            .ok_or("the vertex pass wrote no tangents")?;
         let (words, _) = tangents.as_chunks::<4>();
         Ok(words.iter().map(|word| f32::from_le_bytes(*word)).collect())
     }
@@ -163,7 +227,12 @@ impl MeshCase {
             Form::Hardened => doubles(&self.mesh.normals),
             Form::Published => frame_from_uv::summed_normals(&positions, &self.mesh.indices),
         };
-        let mesh = frame_from_uv::Triangles { positions: &positions, normals: &normals, uvs: &uvs, indices: &self.mesh.indices };
+        let mesh = frame_from_uv::Triangles {
+            positions: &positions,
+            normals: &normals,
+            uvs: &uvs,
+            indices: &self.mesh.indices,
+        };
         match self.form {
             Form::Hardened => frame_from_uv::hardened(&mesh),
             Form::Published => {
@@ -178,7 +247,10 @@ impl MeshCase {
         let corner = |k: usize| self.mesh.indices[3 * triangle + k] as usize;
         let position = |k: usize| self.mesh.positions[corner(k)].to_array().map(Bounded::input);
         let uv = |k: usize| self.mesh.uvs[corner(k)].to_array().map(Bounded::input);
-        let (p, q) = (subtract(&position(1), &position(0)), subtract(&position(2), &position(0)));
+        let (p, q) = (
+            subtract(&position(1), &position(0)),
+            subtract(&position(2), &position(0)),
+        );
         let (st1, st2) = (subtract(&uv(1), &uv(0)), subtract(&uv(2), &uv(0)));
         let arguments = [p.as_slice(), &q, &st1, &st2].concat();
         row(self.function("triangle"), &arguments)
@@ -193,7 +265,9 @@ impl MeshCase {
 
     /// The bounds of every vertex' tangent.
     fn bounds(&self) -> Vec<Vec<Bounded>> {
-        let shares: Vec<Vec<Bounded>> = (0..self.mesh.indices.len() / 3).map(|triangle| self.share(triangle)).collect();
+        let shares: Vec<Vec<Bounded>> = (0..self.mesh.indices.len() / 3)
+            .map(|triangle| self.share(triangle))
+            .collect();
         let (offsets, triangles) = adjacency(&self.mesh);
         let vertex = |v: usize| {
             let of_vertex = &triangles[offsets[v] as usize..offsets[v + 1] as usize];
@@ -229,7 +303,11 @@ impl MeshCase {
         let (truth, bounds) = (self.truth(), self.bounds());
         let mut comparison = Comparison::default();
         for (v, (truth, bounds)) in truth.iter().zip(&bounds).enumerate() {
-            let expected = truth.to_array().into_iter().zip(bounds).map(|(truth, &bound)| Expected { truth, bound });
+            let expected = truth
+                .to_array()
+                .into_iter()
+                .zip(bounds)
+                .map(|(truth, &bound)| Expected { truth, bound });
             let tangent = got.get(4 * v..4 * v + 4).unwrap_or_default();
             comparison.item(&[v as f32], tangent, &expected.collect::<Vec<_>>());
         }
@@ -239,7 +317,9 @@ impl MeshCase {
 
 /// The row of the tolerance table, evaluated.
 fn row(function: String, arguments: &[Bounded]) -> Vec<Bounded> {
-    tolerance::find(&function).map(|row| (row.bound)(&mut Args::new(arguments))).unwrap_or_default()
+    tolerance::find(&function)
+        .map(|row| (row.bound)(&mut Args::new(arguments)))
+        .unwrap_or_default()
 }
 
 impl Case for MeshCase {

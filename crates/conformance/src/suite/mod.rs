@@ -43,7 +43,11 @@ mod tests {
     use super::{Scope, cases};
 
     fn scope() -> Scope {
-        Scope { full: false, seed: 1, scenes: Vec::new() }
+        Scope {
+            full: false,
+            seed: 1,
+            scenes: Vec::new(),
+        }
     }
 
     #[test]

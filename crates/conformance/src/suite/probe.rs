@@ -19,8 +19,9 @@ pub const ORDINARY: usize = 10_000;
 /// Random items of one probe in a full run.
 pub const FULL: usize = 1_000_000;
 
-/// Items whose expectations are kept between routes; beyond it they are computed again, to save memory.
-const KEEP: usize = 20_000;
+/// Items that are generated, run and judged at a time. Expectations of a case with one part are kept between routes; longer
+/// ones compute them again, to save memory.
+const PART: usize = ORDINARY;
 
 /// Where the inputs come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,7 +42,11 @@ struct ProbeCase {
 /// The cases of all probes.
 pub fn cases(full: bool, seed: u64) -> impl Iterator<Item = Box<dyn Case>> {
     let count = if full { FULL } else { ORDINARY };
-    let generators = [Generator::Control, Generator::Edge, Generator::Random { count, seed }];
+    let generators = [
+        Generator::Control,
+        Generator::Edge,
+        Generator::Random { count, seed },
+    ];
     PROBES
         .iter()
         .flat_map(move |probe| generators.map(|generator| (probe, generator)))
@@ -54,7 +59,11 @@ pub fn cases(full: bool, seed: u64) -> impl Iterator<Item = Box<dyn Case>> {
 pub fn id(probe: &Probe, generator: &str) -> CaseId {
     let both = Technique::find(probe.technique).is_some_and(|technique| technique.forms.len() > 1);
     let id = CaseId::new(probe.technique, both.then(|| probe.form.as_str()), generator);
-    if probe.function() == probe.technique { id } else { id.with("fn", probe.function()) }
+    if probe.function() == probe.technique {
+        id
+    } else {
+        id.with("fn", probe.function())
+    }
 }
 
 impl ProbeCase {
@@ -64,14 +73,28 @@ impl ProbeCase {
             Generator::Edge => id(probe, "edge"),
             Generator::Random { count, seed } => id(probe, "random").with("n", count).with("seed", seed),
         };
-        Self { id, probe, generator, prepared: OnceLock::new() }
+        Self {
+            id,
+            probe,
+            generator,
+            prepared: OnceLock::new(),
+        }
     }
 
-    fn inputs(&self) -> Inputs {
+    fn parts(&self) -> usize {
+        match self.generator {
+            Generator::Control | Generator::Edge => 1,
+            Generator::Random { count, .. } => count.div_ceil(PART),
+        }
+    }
+
+    fn inputs(&self, part: usize) -> Inputs {
         match self.generator {
             Generator::Control => control::generate(self.probe),
             Generator::Edge => edge::generate(self.probe),
-            Generator::Random { count, seed } => random::generate(self.probe, count, seed),
+            Generator::Random { count, seed } => {
+                random::generate(self.probe, PART.min(count - part * PART), part, seed)
+            }
         }
     }
 
@@ -83,24 +106,61 @@ impl ProbeCase {
         let mut expected: Vec<Vec<Expected>> = items.par_iter().map(of).collect();
         if self.generator == Generator::Control {
             for (item, row) in expected.iter_mut().zip(control::rows(self.probe)) {
-                item.iter_mut().zip(row.outputs).for_each(|(e, known)| e.truth = *known);
+                item.iter_mut()
+                    .zip(row.outputs)
+                    .for_each(|(e, known)| e.truth = *known);
             }
         }
         expected
     }
 
-    fn judge(&self, bench: &Bench<'_>, inputs: &Inputs, expected: &[Vec<Expected>]) -> Result<Outcome, String> {
+    /// A part's inputs with what is expected of them.
+    fn make(&self, part: usize) -> (Inputs, Vec<Vec<Expected>>) {
+        let inputs = self.inputs(part);
+        let expected = self.expectations(&inputs);
+        (inputs, expected)
+    }
+
+    fn compare(
+        &self,
+        bench: &Bench<'_>,
+        inputs: &Inputs,
+        expected: &[Vec<Expected>],
+    ) -> Result<Comparison, String> {
         let probe = self.probe;
         let module = bench.module(probe.function(), |library| library.assemble_probe(probe.id))?;
         let shader = module.shader(probe.entry)?;
-        let got = run_probe(bench.device, shader.code, shader.entry, &inputs.values, probe.output_floats, inputs.len())
-            .map_err(|error| with_causes(&error))?;
+        let got = run_probe(
+            bench.device,
+            shader.code,
+            shader.entry,
+            &inputs.values,
+            probe.output_floats,
+            inputs.len(),
+        )
+        .map_err(|error| with_causes(&error))?;
         let compared = inputs.items().zip(got.chunks(probe.output_floats)).zip(expected);
-        let comparison = compared.fold(Comparison::default(), |mut all, ((input, got), expected)| {
-            all.item(input, got, expected);
-            all
-        });
-        Ok(Outcome::of(inputs.len(), comparison, self.undecided_limit()))
+        Ok(
+            compared.fold(Comparison::default(), |mut all, ((input, got), expected)| {
+                all.item(input, got, expected);
+                all
+            }),
+        )
+    }
+
+    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
+        if self.parts() == 1 {
+            let (inputs, expected) = self.prepared.get_or_init(|| self.make(0));
+            let comparison = self.compare(bench, inputs, expected)?;
+            return Ok(Outcome::of(inputs.len(), comparison, self.undecided_limit()));
+        }
+        let (mut all, mut items) = (Comparison::default(), 0);
+        for part in 0..self.parts() {
+            let (inputs, expected) = self.make(part);
+            all.merge(self.compare(bench, &inputs, &expected)?);
+            items += inputs.len();
+        }
+        Ok(Outcome::of(items, all, self.undecided_limit()))
     }
 
     /// Only random cases of hardened functions stay inside the documented domain.
@@ -128,20 +188,7 @@ impl Case for ProbeCase {
     }
 
     fn run(&self, bench: &Bench<'_>) -> Outcome {
-        let make = || {
-            let inputs = self.inputs();
-            let expected = self.expectations(&inputs);
-            (inputs, expected)
-        };
-        let large = matches!(self.generator, Generator::Random { count, .. } if count > KEEP);
-        let outcome = if large {
-            let (inputs, expected) = make();
-            self.judge(bench, &inputs, &expected)
-        } else {
-            let (inputs, expected) = self.prepared.get_or_init(make);
-            self.judge(bench, inputs, expected)
-        };
-        outcome.unwrap_or_else(Outcome::failed)
+        self.judge(bench).unwrap_or_else(Outcome::failed)
     }
 }
 
@@ -154,11 +201,21 @@ mod tests {
     #[test]
     fn names_follow_the_technique() {
         let name = |function: &str| {
-            id(PROBES.iter().find(|probe| probe.function() == function).unwrap(), "edge").to_string()
+            id(
+                PROBES.iter().find(|probe| probe.function() == function).unwrap(),
+                "edge",
+            )
+            .to_string()
         };
         assert_eq!(name("parallax_offset"), "parallax_offset/hardened/edge");
-        assert_eq!(name("parallax_offset_published"), "parallax_offset/published/edge:fn=parallax_offset_published");
+        assert_eq!(
+            name("parallax_offset_published"),
+            "parallax_offset/published/edge:fn=parallax_offset_published"
+        );
         assert_eq!(name("parallax_offset_limited"), "parallax_offset_limited/edge");
-        assert_eq!(name("highlight_power"), "blinn_phong/hardened/edge:fn=highlight_power");
+        assert_eq!(
+            name("highlight_power"),
+            "blinn_phong/hardened/edge:fn=highlight_power"
+        );
     }
 }

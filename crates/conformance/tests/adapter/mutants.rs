@@ -143,14 +143,25 @@ fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
     for entry in std::fs::read_dir(from)? {
         let entry = entry?;
         let target = to.join(entry.file_name());
-        if entry.file_type()?.is_dir() { copy(&entry.path(), &target)? } else { std::fs::copy(entry.path(), target).map(drop)? }
+        if entry.file_type()?.is_dir() {
+            copy(&entry.path(), &target)?
+        } else {
+            std::fs::copy(entry.path(), target).map(drop)?
+        }
     }
     Ok(())
 }
 
 fn selection(filter: &str) -> Selection {
-    let scenes: Vec<PathBuf> = ["brick_wall.toml"].map(|scene| root().join("examples").join(scene)).to_vec();
-    Selection { filter: Some(filter.to_owned()), routes: vec![Route::Wgsl], scenes, ..Selection::default() }
+    let scenes: Vec<PathBuf> = ["brick_wall.toml"]
+        .map(|scene| root().join("examples").join(scene))
+        .to_vec();
+    Selection {
+        filter: Some(filter.to_owned()),
+        routes: vec![Route::Wgsl],
+        scenes,
+        ..Selection::default()
+    }
 }
 
 #[test]
@@ -161,10 +172,18 @@ fn every_fault_is_caught() {
         copy(&root().join("shaders"), folder.path()).expect("the shaders can be copied");
         let file = folder.path().join(mutant.file);
         let text = std::fs::read_to_string(&file).expect("the mutant's file is there");
-        assert!(text.contains(mutant.from), "{}: `{}` is not in {}", mutant.what, mutant.from, mutant.file);
+        assert!(
+            text.contains(mutant.from),
+            "{}: `{}` is not in {}",
+            mutant.what,
+            mutant.from,
+            mutant.file
+        );
         std::fs::write(&file, text.replace(mutant.from, mutant.to)).expect("the copy can be written");
         let library = Library::from_dir(folder.path()).expect("the mutant is a whole library");
-        let Some(report) = report(mutant.what, &selection(mutant.filter), &library) else { return };
+        let Some(report) = report(mutant.what, &selection(mutant.filter), &library) else {
+            return;
+        };
         if report.failures().next().is_none() {
             missed.push(mutant.what);
         }
@@ -176,8 +195,13 @@ fn every_fault_is_caught() {
 fn the_same_cases_pass_without_a_fault() {
     let library = Library::from_dir(&root().join("shaders")).expect("the library is whole");
     for mutant in MUTANTS {
-        let Some(report) = report(mutant.what, &selection(mutant.filter), &library) else { return };
-        let failed: Vec<String> = report.failures().map(|case| format!("{}: {:?}", case.id, case.reason)).collect();
+        let Some(report) = report(mutant.what, &selection(mutant.filter), &library) else {
+            return;
+        };
+        let failed: Vec<String> = report
+            .failures()
+            .map(|case| format!("{}: {:?}", case.id, case.reason))
+            .collect();
         assert!(failed.is_empty(), "{}: {failed:?}", mutant.what);
     }
 }

@@ -17,7 +17,8 @@ pub(crate) fn report(test: &str, selection: &Selection, library: &Library) -> Op
             let required = std::env::var("BOSSAGE_REQUIRE").is_ok_and(|list| list.contains("lavapipe"));
             assert!(!required, "lavapipe is required, but: {error}");
             let count = SKIPPED.fetch_add(1, Ordering::Relaxed) + 1;
-            writeln!(std::io::stderr(), "SKIP {count}: {test}: {error}").expect("standard error can be written");
+            writeln!(std::io::stderr(), "SKIP {count}: {test}: {error}")
+                .expect("standard error can be written");
             None
         }
         Err(error) => panic!("{test}: {error}"),
@@ -29,7 +30,12 @@ pub(crate) fn listed(report: &Report, verdict: Verdict) -> String {
     let cases = report.cases.iter().filter(|case| case.verdict == verdict);
     let line = |case: &bossage_conformance::CaseResult| {
         let worst = case.worst.as_ref().map(ToString::to_string).unwrap_or_default();
-        format!("{} ({}): {}\n{worst}\n", case.id, case.route, case.reason.as_deref().unwrap_or_default())
+        format!(
+            "{} ({}): {}\n{worst}\n",
+            case.id,
+            case.route,
+            case.reason.as_deref().unwrap_or_default()
+        )
     };
     cases.map(line).collect()
 }
