@@ -24,7 +24,14 @@ fn words(effect: EffectId) -> &'static [&'static str] {
         EffectId::NormalMap => &["normal_map", "normal_decode", "normal_texel", "combine_frame"],
         EffectId::AlbedoMap => &["albedo_map"],
         EffectId::AlphaDiscard => &["alpha_cutoff", "discard", "discard_fragment", "OpKill"],
-        EffectId::Relief => &["height_map", "relief", "elevation", "view_dir_ts", "parallax_offset", "parallax_offset_limited"],
+        EffectId::Relief => &[
+            "height_map",
+            "relief",
+            "elevation",
+            "view_dir_ts",
+            "parallax_offset",
+            "parallax_offset_limited",
+        ],
         EffectId::CofactorMatrix => &["cofactor", "handedness_sign"],
         EffectId::Handedness => &["lighting_space_handedness", "handedness"],
     }
@@ -32,8 +39,12 @@ fn words(effect: EffectId) -> &'static [&'static str] {
 
 fn examples() -> Vec<PathBuf> {
     let dir = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
-    let files = std::fs::read_dir(dir).expect("examples/ is there").map(|entry| entry.unwrap().path());
-    let mut scenes: Vec<PathBuf> = files.filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    let files = std::fs::read_dir(dir)
+        .expect("examples/ is there")
+        .map(|entry| entry.unwrap().path());
+    let mut scenes: Vec<PathBuf> = files
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .collect();
     scenes.sort();
     assert!(scenes.len() >= 4, "examples/ lost scenes: {scenes:?}");
     scenes
@@ -42,7 +53,12 @@ fn examples() -> Vec<PathBuf> {
 /// The identifiers of a text, without the digits and underscores that a back end appends to keep names apart.
 fn identifiers(text: &str) -> BTreeSet<String> {
     let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
-    words.map(|word| word.trim_end_matches(|c: char| c == '_' || c.is_ascii_digit()).to_owned()).collect()
+    words
+        .map(|word| {
+            word.trim_end_matches(|c: char| c == '_' || c.is_ascii_digit())
+                .to_owned()
+        })
+        .collect()
 }
 
 /// Every identifier of a permutation, over both stages: `(target, identifiers)`, and the manifest's names as one more row.
@@ -52,15 +68,24 @@ fn traces(library: &Library, set: &FeatureSet) -> Vec<(String, BTreeSet<String>)
         let assembled = library.assemble_surface(set, stage).unwrap();
         let shader = Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl)).unwrap();
         let options = EmitOptions::default();
-        let emitted: Vec<_> = Target::ALL.iter().map(|&t| emit(&shader, t, &options).unwrap()).collect();
+        let emitted: Vec<_> = Target::ALL
+            .iter()
+            .map(|&t| emit(&shader, t, &options).unwrap())
+            .collect();
         for one in &emitted {
             let texts = one.files.iter().map(|file| match &file.contents {
                 Contents::Text(text) => text.clone(),
                 Contents::Binary(bytes) => spirv_listing(bytes).unwrap(),
             });
-            rows.push((format!("{stage:?} {}", one.target), texts.flat_map(|text| identifiers(&text)).collect()));
+            rows.push((
+                format!("{stage:?} {}", one.target),
+                texts.flat_map(|text| identifiers(&text)).collect(),
+            ));
         }
-        rows.push((format!("{stage:?} manifest"), manifest_names(&manifest(&shader, &options, &emitted))));
+        rows.push((
+            format!("{stage:?} manifest"),
+            manifest_names(&manifest(&shader, &options, &emitted)),
+        ));
     }
     rows
 }
@@ -70,7 +95,12 @@ fn manifest_names(manifest: &Manifest) -> BTreeSet<String> {
     let mut names = BTreeSet::new();
     for entry in &manifest.entries {
         names.extend(entry.bindings.iter().map(|b| b.name.clone()));
-        names.extend(entry.uniforms.iter().flat_map(|u| u.members.iter().map(|m| m.name.clone())));
+        names.extend(
+            entry
+                .uniforms
+                .iter()
+                .flat_map(|u| u.members.iter().map(|m| m.name.clone())),
+        );
         names.extend(entry.inputs.iter().chain(&entry.outputs).map(|v| v.name.clone()));
     }
     names
@@ -85,10 +115,18 @@ fn faults(material: &MaterialPlan, rows: &[(String, BTreeSet<String>)]) -> Vec<S
         match effect.state {
             State::Dropped => found.extend(words.iter().filter_map(|word| {
                 let (place, _) = seen(&word)?;
-                Some(format!("{}: {} was dropped, but `{word}` is in {place}", material.name, effect.id.as_str()))
+                Some(format!(
+                    "{}: {} was dropped, but `{word}` is in {place}",
+                    material.name,
+                    effect.id.as_str()
+                ))
             })),
             State::Kept if !words.is_empty() && !words.iter().any(|word| seen(&word).is_some()) => {
-                found.push(format!("{}: {} is kept, but none of its words occurs", material.name, effect.id.as_str()));
+                found.push(format!(
+                    "{}: {} is kept, but none of its words occurs",
+                    material.name,
+                    effect.id.as_str()
+                ));
             }
             State::Kept => {}
         }
@@ -104,8 +142,17 @@ fn dropped_effects_leave_no_trace_in_any_target() {
         let scene = bossage_scene::load(&path).unwrap_or_else(|why| panic!("{why}"));
         for material in &bossage_scene::plan(&scene).materials {
             let rows = traces(&library, &material.features);
-            assert_eq!(faults(material, &rows), Vec::<String>::new(), "{}", path.display());
-            checked += material.effects.iter().filter(|e| e.state == State::Dropped && !words(e.id).is_empty()).count();
+            assert_eq!(
+                faults(material, &rows),
+                Vec::<String>::new(),
+                "{}",
+                path.display()
+            );
+            checked += material
+                .effects
+                .iter()
+                .filter(|e| e.state == State::Dropped && !words(e.id).is_empty())
+                .count();
         }
     }
     assert!(checked >= 20, "the examples must drop something: {checked}");
@@ -117,7 +164,10 @@ fn an_effect_that_was_left_in_is_caught() {
     let library = Library::embedded().unwrap();
     let scene = bossage_scene::load(&examples()[0]).unwrap_or_else(|why| panic!("{why}"));
     let mut material = bossage_scene::plan(&scene).materials.swap_remove(0);
-    let everything = FeatureSet { relief: bossage_shaders::Relief::ParallaxOffset, ..material.features.all_effects() };
+    let everything = FeatureSet {
+        relief: bossage_shaders::Relief::ParallaxOffset,
+        ..material.features.all_effects()
+    };
     let rows = traces(&library, &everything);
     for effect in &mut material.effects {
         effect.state = State::Dropped;
@@ -125,6 +175,9 @@ fn an_effect_that_was_left_in_is_caught() {
     let found = faults(&material, &rows);
     for id in EffectId::ALL.into_iter().filter(|&id| !words(id).is_empty()) {
         let needle = format!("{} was dropped", id.as_str());
-        assert!(found.iter().any(|line| line.contains(&needle)), "{needle} was not caught: {found:?}");
+        assert!(
+            found.iter().any(|line| line.contains(&needle)),
+            "{needle} was not caught: {found:?}"
+        );
     }
 }

@@ -57,11 +57,7 @@ const NEVER: &[(&str, &[&str], &str)] = &[
         &["wgpu", "wesl"],
         "the evaluator reads the IR alone: it is the second, independent oracle",
     ),
-    (
-        "shaders",
-        &["naga", "wgpu"],
-        "assembling text needs no compiler",
-    ),
+    ("shaders", &["naga", "wgpu"], "assembling text needs no compiler"),
     (
         "translate",
         &["wgpu", "wesl"],
@@ -133,11 +129,7 @@ fn workspace_graph() -> Graph {
 #[test]
 fn arrows_point_one_way() {
     let graph = workspace_graph();
-    assert!(
-        graph.len() >= 9,
-        "the workspace lost crates: {:?}",
-        graph.keys()
-    );
+    assert!(graph.len() >= 9, "the workspace lost crates: {:?}", graph.keys());
     assert_eq!(violations(&graph), Vec::<String>::new());
 }
 

@@ -9,10 +9,11 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use bossage_shaders::{
-    AssembledShader, FeatureSet, Form, Library, Lights, NormalSource, PROBES, Probe, Relief, Stage, TECHNIQUES, Technique,
-};
 use bossage_shaders::{Albedo, Alpha, Transform};
+use bossage_shaders::{
+    AssembledShader, FeatureSet, Form, Library, Lights, NormalSource, PROBES, Probe, Relief, Stage,
+    TECHNIQUES, Technique,
+};
 use bossage_translate::emit::spirv_listing;
 use bossage_translate::{Contents, Cost, EmitOptions, Emitted, Shader, Source, Target, emit, manifest};
 
@@ -31,13 +32,16 @@ fn settings() -> insta::Settings {
 }
 
 fn parse(assembled: &AssembledShader) -> Shader {
-    Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl.clone())).unwrap_or_else(|why| panic!("{why}"))
+    Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl.clone()))
+        .unwrap_or_else(|why| panic!("{why}"))
 }
 
 fn emit_all(shader: &Shader) -> Vec<Emitted> {
     let options = EmitOptions::default();
     let emitted = Target::ALL.iter().map(|&target| emit(shader, target, &options));
-    emitted.map(|result| result.unwrap_or_else(|why| panic!("{why}"))).collect()
+    emitted
+        .map(|result| result.unwrap_or_else(|why| panic!("{why}")))
+        .collect()
 }
 
 /// The text of a file as a person reads it: SPIR-V as its listing.
@@ -53,7 +57,9 @@ fn readable(emitted: &Emitted) -> String {
 fn main_probe(technique: &Technique) -> &'static Probe {
     let mut own = PROBES.iter().filter(|probe| probe.technique == technique.id);
     let named = own.clone().find(|probe| probe.id.as_str() == technique.id);
-    named.or_else(|| own.find(|probe| probe.form == Form::Hardened)).expect("every technique has a probe")
+    named
+        .or_else(|| own.find(|probe| probe.form == Form::Hardened))
+        .expect("every technique has a probe")
 }
 
 /// Two whole surfaces: the brick wall's, and one with everything on.
@@ -81,11 +87,18 @@ fn surfaces() -> [(&'static str, FeatureSet); 2] {
 fn plan(library: &Library) -> Vec<(String, Target, Vec<AssembledShader>)> {
     let mut rows = Vec::new();
     for technique in TECHNIQUES {
-        let assembled = library.assemble_probe(main_probe(technique).id).expect("probes assemble");
-        rows.extend(Target::ALL.iter().map(|&t| (technique.id.to_owned(), t, vec![assembled.clone()])));
+        let assembled = library
+            .assemble_probe(main_probe(technique).id)
+            .expect("probes assemble");
+        rows.extend(
+            Target::ALL
+                .iter()
+                .map(|&t| (technique.id.to_owned(), t, vec![assembled.clone()])),
+        );
     }
     for (name, set) in surfaces() {
-        let stages = [Stage::Vertex, Stage::Fragment].map(|stage| library.assemble_surface(&set, stage).unwrap());
+        let stages =
+            [Stage::Vertex, Stage::Fragment].map(|stage| library.assemble_surface(&set, stage).unwrap());
         rows.extend(Target::ALL.iter().map(|&t| (name.to_owned(), t, stages.to_vec())));
     }
     rows
@@ -97,7 +110,9 @@ fn techniques_at_targets() {
     settings().bind(|| {
         for (name, target, modules) in plan(&library) {
             let options = EmitOptions::default();
-            let texts = modules.iter().map(|m| readable(&emit(&parse(m), target, &options).unwrap()));
+            let texts = modules
+                .iter()
+                .map(|m| readable(&emit(&parse(m), target, &options).unwrap()));
             insta::assert_snapshot!(format!("{name}@{target}"), texts.collect::<Vec<_>>().join("\n"));
         }
     });
@@ -109,17 +124,27 @@ fn index_line(assembled: &AssembledShader) -> String {
     let shader = parse(assembled);
     let emitted = emit_all(&shader);
     let manifest = manifest(&shader, &EmitOptions::default(), &emitted);
-    let [entry] = &manifest.entries[..] else { panic!("{}: one entry point a module", assembled.name) };
+    let [entry] = &manifest.entries[..] else {
+        panic!("{}: one entry point a module", assembled.name)
+    };
     let mut line = format!("{}: {}", assembled.name, cost(&entry.cost));
     for one in &emitted {
         let hash = &entry.sha256[one.target.name()][..8];
-        let _ = write!(line, " | {} {hash} {}", one.target, length(&one.files[0].contents));
+        let _ = write!(
+            line,
+            " | {} {hash} {}",
+            one.target,
+            length(&one.files[0].contents)
+        );
     }
     line
 }
 
 fn cost(cost: &Cost) -> String {
-    format!("ops {} samples {} branches {} loops {}", cost.ops, cost.samples, cost.branches, cost.loops)
+    format!(
+        "ops {} samples {} branches {} loops {}",
+        cost.ops, cost.samples, cost.branches, cost.loops
+    )
 }
 
 fn length(contents: &Contents) -> usize {
@@ -134,9 +159,15 @@ fn modules(library: &Library) -> Vec<AssembledShader> {
     let mut modules = std::collections::BTreeMap::new();
     for set in FeatureSet::reachable() {
         for stage in [Stage::Vertex, Stage::Fragment] {
-            let assembled = library.assemble_surface(&set, stage).expect("every reachable set assembles");
+            let assembled = library
+                .assemble_surface(&set, stage)
+                .expect("every reachable set assembles");
             let before = modules.insert(assembled.name.clone(), assembled.clone());
-            assert!(before.is_none_or(|b: AssembledShader| b == assembled), "{}: one name, two texts", assembled.name);
+            assert!(
+                before.is_none_or(|b: AssembledShader| b == assembled),
+                "{}: one name, two texts",
+                assembled.name
+            );
         }
     }
     modules.into_values().collect()
@@ -147,7 +178,11 @@ fn the_index_of_all_permutations() {
     let library = Library::embedded().unwrap();
     let modules = modules(&library);
     let sets = FeatureSet::reachable().len();
-    assert!(modules.len() < 1000, "the feature model must keep modules in the hundreds: {}", modules.len());
+    assert!(
+        modules.len() < 1000,
+        "the feature model must keep modules in the hundreds: {}",
+        modules.len()
+    );
     let head = format!("{sets} feature sets, {} modules", modules.len());
     let lines: Vec<String> = modules.iter().map(index_line).collect();
     settings().bind(|| insta::assert_snapshot!(INDEX, format!("{head}\n\n{}", lines.join("\n"))));
@@ -166,7 +201,9 @@ fn a_changed_byte_changes_the_index() {
 
 /// Snapshots of `source` that no test takes any more, and files that are no snapshots.
 fn orphans(dir: &Path, source: &str, taken: &BTreeSet<String>) -> Vec<String> {
-    let files = std::fs::read_dir(dir).expect("the snapshot folder is there").map(|entry| entry.unwrap().path());
+    let files = std::fs::read_dir(dir)
+        .expect("the snapshot folder is there")
+        .map(|entry| entry.unwrap().path());
     let mut found: Vec<String> = files.filter_map(|path| orphan(&path, source, taken)).collect();
     found.sort();
     found
@@ -174,9 +211,14 @@ fn orphans(dir: &Path, source: &str, taken: &BTreeSet<String>) -> Vec<String> {
 
 fn orphan(path: &Path, source: &str, taken: &BTreeSet<String>) -> Option<String> {
     let name = path.file_name()?.to_str()?.to_owned();
-    let Some(stem) = name.strip_suffix(".snap") else { return Some(format!("{name}: not a snapshot")) };
+    let Some(stem) = name.strip_suffix(".snap") else {
+        return Some(format!("{name}: not a snapshot"));
+    };
     let text = std::fs::read_to_string(path).expect("a snapshot is text");
-    let from = text.lines().find_map(|line| line.strip_prefix("source: ")).unwrap_or("nowhere");
+    let from = text
+        .lines()
+        .find_map(|line| line.strip_prefix("source: "))
+        .unwrap_or("nowhere");
     let unused = from == source && !taken.contains(stem);
     let unknown = ![source, "crates/cli/tests/help.rs"].contains(&from);
     (unused || unknown).then(|| format!("{name}: taken by {from}, which has no such snapshot"))
@@ -184,14 +226,20 @@ fn orphan(path: &Path, source: &str, taken: &BTreeSet<String>) -> Option<String>
 
 fn taken() -> BTreeSet<String> {
     let library = Library::embedded().unwrap();
-    let mut names: BTreeSet<String> = plan(&library).into_iter().map(|(name, t, _)| format!("{name}@{t}")).collect();
+    let mut names: BTreeSet<String> = plan(&library)
+        .into_iter()
+        .map(|(name, t, _)| format!("{name}@{t}"))
+        .collect();
     names.insert(INDEX.to_owned());
     names
 }
 
 #[test]
 fn no_orphans() {
-    assert_eq!(orphans(&snapshot_dir(), "tests/snapshots.rs", &taken()), Vec::<String>::new());
+    assert_eq!(
+        orphans(&snapshot_dir(), "tests/snapshots.rs", &taken()),
+        Vec::<String>::new()
+    );
 }
 
 #[test]

@@ -257,9 +257,14 @@ fn relief(prepared: &Prepared<'_>) -> Vec<f32> {
     match &prepared.material.height {
         Some(height) if !is_plane => {
             let Elevation { scale, bias } = height.elevation;
-            [scale.x, bias.x, if scale.x == 0.0 { 1.0 } else { scale.y / scale.x }, 0.0]
-                .map(|x| x as f32)
-                .to_vec()
+            [
+                scale.x,
+                bias.x,
+                if scale.x == 0.0 { 1.0 } else { scale.y / scale.x },
+                0.0,
+            ]
+            .map(|x| x as f32)
+            .to_vec()
         }
         Some(_) | None => vec![0.0, 0.0, 1.0, 0.0],
     }
