@@ -42,18 +42,27 @@ struct SceneCase {
 
 /// Three cases a scene file.
 pub fn cases(scenes: &[PathBuf]) -> impl Iterator<Item = Box<dyn Case>> {
-    let variants =
-        [(Shaders::Planned, "planned"), (Shaders::AllEffects, "all_effects"), (Shaders::Agreement, "agreement")];
+    let variants = [
+        (Shaders::Planned, "planned"),
+        (Shaders::AllEffects, "all_effects"),
+        (Shaders::Agreement, "agreement"),
+    ];
     scenes.iter().flat_map(move |path| {
         variants.map(|(shaders, generator)| {
             let id = CaseId::new("scene", None, generator).with("scene", name(path));
-            Box::new(SceneCase { id, path: path.clone(), shaders, loaded: OnceLock::new() }) as Box<dyn Case>
+            Box::new(SceneCase {
+                id,
+                path: path.clone(),
+                shaders,
+                loaded: OnceLock::new(),
+            }) as Box<dyn Case>
         })
     })
 }
 
 fn name(path: &Path) -> String {
-    path.file_stem().map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned())
+    path.file_stem()
+        .map_or_else(|| "scene".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
 /// The scene files of a folder, sorted: what ends in `.toml`.
@@ -61,10 +70,19 @@ fn name(path: &Path) -> String {
 /// # Errors
 /// [`crate::Error::Scenes`] when the folder cannot be read.
 pub fn files_in(folder: &Path) -> Result<Vec<PathBuf>, crate::Error> {
-    let failed = |source| crate::Error::Scenes { path: folder.to_owned(), source };
+    let failed = |source| crate::Error::Scenes {
+        path: folder.to_owned(),
+        source,
+    };
     let entries = std::fs::read_dir(folder).map_err(failed)?;
-    let paths = entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>().map_err(failed)?;
-    let mut scenes: Vec<PathBuf> = paths.into_iter().filter(|path| path.extension().is_some_and(|e| e == "toml")).collect();
+    let paths = entries
+        .map(|entry| entry.map(|entry| entry.path()))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(failed)?;
+    let mut scenes: Vec<PathBuf> = paths
+        .into_iter()
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .collect();
     scenes.sort();
     Ok(scenes)
 }
@@ -101,17 +119,27 @@ impl SceneCase {
 /// The same object with every effect on.
 fn everything(scene: &Scene, plan: &Plan, draw: &Draw) -> Draw {
     let all = draws_with(scene, |material| plan.features(material).all_effects());
-    all.into_iter().find(|full| full.object == draw.object).unwrap_or_else(|| draw.clone())
+    all.into_iter()
+        .find(|full| full.object == draw.object)
+        .unwrap_or_else(|| draw.clone())
 }
 
 /// Every pixel against the reference: the four channels, and whether the alpha test kept it.
 fn judged(pixels: &[Pixel]) -> (Comparison, usize) {
     let mut comparison = Comparison::default();
     for pixel in pixels {
-        comparison.item(&pixel.place, &[f32::from(u8::from(pixel.got.is_some()))], &[kept(pixel)]);
+        comparison.item(
+            &pixel.place,
+            &[f32::from(u8::from(pixel.got.is_some()))],
+            &[kept(pixel)],
+        );
         if let (Some(got), Some(truth)) = (pixel.got, pixel.truth) {
-            let expected: Vec<Expected> =
-                (0..4).map(|i| Expected { truth: truth[i], bound: pixel.bound.color[i] }).collect();
+            let expected: Vec<Expected> = (0..4)
+                .map(|i| Expected {
+                    truth: truth[i],
+                    bound: pixel.bound.color[i],
+                })
+                .collect();
             comparison.item(&pixel.place, &got, &expected);
         }
     }
@@ -122,7 +150,14 @@ fn judged(pixels: &[Pixel]) -> (Comparison, usize) {
 fn kept(pixel: &Pixel) -> Expected {
     let truth = f64::from(u8::from(pixel.truth.is_some()));
     let bound = Bounded::select(pixel.bound.discarded, Bounded::exact(0.0), Bounded::exact(1.0));
-    Expected { truth, bound: Bounded { value: truth, error: if bound.forked { 1.0 } else { bound.error }, ..bound } }
+    Expected {
+        truth,
+        bound: Bounded {
+            value: truth,
+            error: if bound.forked { 1.0 } else { bound.error },
+            ..bound
+        },
+    }
 }
 
 /// The planned picture against the one with all effects: each within the sum of both bounds of the other.
@@ -132,20 +167,36 @@ fn agreement(planned: &[Pixel], full: &[Pixel]) -> (Comparison, usize) {
     let key = |pixel: &Pixel| (pixel.place[0] as u32, pixel.place[1] as u32);
     let full: BTreeMap<(u32, u32), &Pixel> = full.iter().map(|pixel| (key(pixel), pixel)).collect();
     for planned in planned {
-        let Some(full) = full.get(&key(planned)) else { continue };
+        let Some(full) = full.get(&key(planned)) else {
+            continue;
+        };
         pairs += 1;
         let decided = |pixel: &Pixel| !matches!(pixel.bound.discarded, Decision::Either { .. });
         let (Some(got), Some(other)) = (planned.got, full.got) else {
             let same = planned.got.is_some() == full.got.is_some();
-            let bound = Bounded { forked: !decided(planned) || !decided(full), ..Bounded::exact(1.0) };
-            let bound = if bound.forked { Bounded { error: 1.0, ..bound } } else { bound };
-            comparison.item(&planned.place, &[f32::from(u8::from(same))], &[Expected { truth: 1.0, bound }]);
+            let bound = Bounded {
+                forked: !decided(planned) || !decided(full),
+                ..Bounded::exact(1.0)
+            };
+            let bound = if bound.forked {
+                Bounded { error: 1.0, ..bound }
+            } else {
+                bound
+            };
+            comparison.item(
+                &planned.place,
+                &[f32::from(u8::from(same))],
+                &[Expected { truth: 1.0, bound }],
+            );
             continue;
         };
         let expected = |i: usize| {
             let (a, b) = (planned.bound.color[i], full.bound.color[i]);
             let bound = Bounded::within(f64::from(other[i]), a.error + b.error).marked(&[a, b]);
-            Expected { truth: f64::from(other[i]), bound }
+            Expected {
+                truth: f64::from(other[i]),
+                bound,
+            }
         };
         comparison.item(&planned.place, &got, &(0..4).map(expected).collect::<Vec<_>>());
     }

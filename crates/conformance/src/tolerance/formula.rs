@@ -27,8 +27,13 @@ pub(crate) fn branch<const N: usize>(
 /// Integer functions: the truth itself, without error.
 pub(super) fn integers(args: &mut Args<'_, Bounded>, function: &str) -> Vec<Bounded> {
     let values: Vec<f64> = args.rest().iter().map(|x| x.value).collect();
-    let exact = truth::find(function).map(|truth| truth(&mut Args::new(&values))).unwrap_or_default();
-    exact.into_iter().map(|value| Bounded::within(value, 0.0)).collect()
+    let exact = truth::find(function)
+        .map(|truth| truth(&mut Args::new(&values)))
+        .unwrap_or_default();
+    exact
+        .into_iter()
+        .map(|value| Bounded::within(value, 0.0))
+        .collect()
 }
 
 pub(super) fn each3(a: &mut Args<'_, Bounded>, f: fn(Bounded) -> Bounded) -> Vec<Bounded> {
@@ -41,11 +46,15 @@ pub(crate) fn largest_component(v: &Vec3) -> Bounded {
 
 pub(crate) fn normalise(v: &Vec3) -> Vec3 {
     let largest = largest_component(v);
-    branch(largest.less(SMALLEST_NORMAL), || [ZERO; 3], || {
-        let scaled = scaled_by(v, largest);
-        let length = dot(&scaled, &scaled).max(ONE_LESS_ROUNDING).sqrt();
-        scaled.map(|x| x / length)
-    })
+    branch(
+        largest.less(SMALLEST_NORMAL),
+        || [ZERO; 3],
+        || {
+            let scaled = scaled_by(v, largest);
+            let length = dot(&scaled, &scaled).max(ONE_LESS_ROUNDING).sqrt();
+            scaled.map(|x| x / length)
+        },
+    )
 }
 
 /// The largest component of a scaled vector is 1 to within the quotient's 2.5 ULP, so the squared length is at least this.
@@ -59,7 +68,11 @@ fn scaled_by(v: &Vec3, largest: Bounded) -> Vec3 {
 
 pub(super) fn length_of(v: &Vec3) -> Bounded {
     let largest = largest_component(v);
-    let [length] = branch(largest.less(SMALLEST_NORMAL), || [ZERO], || [largest * length(&scaled_by(v, largest))]);
+    let [length] = branch(
+        largest.less(SMALLEST_NORMAL),
+        || [ZERO],
+        || [largest * length(&scaled_by(v, largest))],
+    );
     length
 }
 
@@ -74,7 +87,8 @@ pub(super) fn tangent_from_normal([x, y, z]: &Vec3) -> Vec3 {
 }
 
 pub(super) fn column_scales(m: &[Vec3; 3]) -> Vec3 {
-    m.each_ref().map(|column| largest_component(column).max(SMALLEST_NORMAL))
+    m.each_ref()
+        .map(|column| largest_component(column).max(SMALLEST_NORMAL))
 }
 
 /// The columns divided by their largest components, and those.
@@ -109,8 +123,15 @@ pub(crate) fn highlight_power(n_dot_h: Bounded, shininess: Bounded) -> Bounded {
         // The base lies between 0 and its upper end, and the power grows with it: from 0 to the power at that end.
         Decision::Either { nominal } => {
             let top = Bounded::within(base.high(), 0.0).pow(exponent);
-            let value = if nominal { 0.0 } else { base.value.powf(exponent.value) };
-            Bounded { forked: true, ..Bounded::between(value, 0.0, top.high()) }
+            let value = if nominal {
+                0.0
+            } else {
+                base.value.powf(exponent.value)
+            };
+            Bounded {
+                forked: true,
+                ..Bounded::between(value, 0.0, top.high())
+            }
         }
     }
 }
@@ -120,7 +141,14 @@ pub(crate) fn blinn_phong(n: &Vec3, l: &Vec3, v: &Vec3, diffuse: &Vec3, specular
     add(&scale(lambert(n, l), diffuse), &scale(highlight, specular))
 }
 
-pub(crate) fn blinn_phong_published(n: &Vec3, l: &Vec3, v: &Vec3, diffuse: &Vec3, specular: &Vec3, p: Bounded) -> Vec3 {
+pub(crate) fn blinn_phong_published(
+    n: &Vec3,
+    l: &Vec3,
+    v: &Vec3,
+    diffuse: &Vec3,
+    specular: &Vec3,
+    p: Bounded,
+) -> Vec3 {
     let highlight = lambert(n, &normalize(&add(l, v))).pow(p);
     add(&scale(lambert(n, l), diffuse), &scale(highlight, specular))
 }
@@ -132,20 +160,33 @@ fn triangle(p: &Vec3, q: &Vec3, st1: &[Bounded; 2], st2: &[Bounded; 2]) -> (Vec3
     (tangent, bitangent, multiply(&[st1[0], st2[0]], &[st2[1], st1[1]]))
 }
 
-pub(super) fn frame_from_uv_triangle(p: &Vec3, q: &Vec3, st1: &[Bounded; 2], st2: &[Bounded; 2]) -> Vec<Bounded> {
+pub(super) fn frame_from_uv_triangle(
+    p: &Vec3,
+    q: &Vec3,
+    st1: &[Bounded; 2],
+    st2: &[Bounded; 2],
+) -> Vec<Bounded> {
     let normal = cross(p, q);
     let area = length_of(&normal);
     let (tangent, bitangent, [first, second]) = triangle(p, q, st1, st2);
     let uv_area = first - second;
     let noise = Bounded::exact(2.384_185_8e-7) * (first.abs() + second.abs());
     let shortest = largest_component(&tangent).min(largest_component(&bitangent));
-    let skipped = uv_area.abs().less_or_equal(noise).or(area.less_or_equal(ZERO)).or(shortest.less(SMALLEST_NORMAL));
-    let share: [Bounded; 7] = branch(skipped, || [ZERO; 7], || {
-        let side = Bounded::select(uv_area.greater(ZERO), ONE, -ONE);
-        let unit = |v: &Vec3| scale(area, &normalise(&scale(side, v)));
-        let ([tx, ty, tz], [bx, by, bz]) = (unit(&tangent), unit(&bitangent));
-        [tx, ty, tz, bx, by, bz, area]
-    });
+    let skipped = uv_area
+        .abs()
+        .less_or_equal(noise)
+        .or(area.less_or_equal(ZERO))
+        .or(shortest.less(SMALLEST_NORMAL));
+    let share: [Bounded; 7] = branch(
+        skipped,
+        || [ZERO; 7],
+        || {
+            let side = Bounded::select(uv_area.greater(ZERO), ONE, -ONE);
+            let unit = |v: &Vec3| scale(area, &normalise(&scale(side, v)));
+            let ([tx, ty, tz], [bx, by, bz]) = (unit(&tangent), unit(&bitangent));
+            [tx, ty, tz, bx, by, bz, area]
+        },
+    );
     [normal.as_slice(), share.as_slice()].concat()
 }
 
@@ -158,7 +199,13 @@ pub(super) fn frame_from_uv_triangle_published(
     let (tangent, bitangent, [first, second]) = triangle(p, q, st1, st2);
     let inverse = ONE / (first - second);
     let normal = normalize(&cross(p, q));
-    [normal.as_slice(), &scale(inverse, &tangent), &scale(inverse, &bitangent), &[ONE]].concat()
+    [
+        normal.as_slice(),
+        &scale(inverse, &tangent),
+        &scale(inverse, &bitangent),
+        &[ONE],
+    ]
+    .concat()
 }
 
 pub(super) fn gram_schmidt(normal: &Vec3, tangent: &Vec3) -> Vec3 {
@@ -169,14 +216,25 @@ pub(super) fn handedness(normal: &Vec3, tangent: &Vec3, bitangent: &Vec3) -> Bou
     Bounded::select(dot(&cross(normal, tangent), bitangent).less(ZERO), -ONE, ONE)
 }
 
-pub(super) fn frame_from_uv_vertex(normal: &Vec3, tangent: &Vec3, bitangent: &Vec3, weight: Bounded) -> [Bounded; 4] {
+pub(super) fn frame_from_uv_vertex(
+    normal: &Vec3,
+    tangent: &Vec3,
+    bitangent: &Vec3,
+    weight: Bounded,
+) -> [Bounded; 4] {
     let projected = gram_schmidt(normal, tangent);
     let left = length_of(&projected);
-    let cancelled = left.less_or_equal(Bounded::exact(1.0 / 4096.0) * weight).or(left.less(SMALLEST_NORMAL));
-    branch(cancelled, || with_sign(tangent_from_normal(normal), ONE), || {
-        let unit = normalise(&projected);
-        with_sign(unit, handedness(normal, &unit, bitangent))
-    })
+    let cancelled = left
+        .less_or_equal(Bounded::exact(1.0 / 4096.0) * weight)
+        .or(left.less(SMALLEST_NORMAL));
+    branch(
+        cancelled,
+        || with_sign(tangent_from_normal(normal), ONE),
+        || {
+            let unit = normalise(&projected);
+            with_sign(unit, handedness(normal, &unit, bitangent))
+        },
+    )
 }
 
 fn with_sign([x, y, z]: Vec3, sign: Bounded) -> [Bounded; 4] {

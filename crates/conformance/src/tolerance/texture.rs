@@ -49,7 +49,11 @@ pub(crate) fn sample(texture: &Texture, storage: Storage, edge: EdgeMode, uv: &[
             Storage::Float32 => 6.0 * f64::from(f32::EPSILON) * low[i].abs().max(high[i].abs()),
         };
         // A constant neighbourhood is returned as it is by any filter whose weights sum to 1; 8-bit arithmetic keeps that.
-        let slack = if low[i] == high[i] && storage == Storage::Unorm8 { 2.0 * f64::from(f32::EPSILON) } else { slack };
+        let slack = if low[i] == high[i] && storage == Storage::Unorm8 {
+            2.0 * f64::from(f32::EPSILON)
+        } else {
+            slack
+        };
         Bounded::between(nominal[i], low[i] - slack, high[i] + slack).marked(uv)
     })
 }
@@ -85,7 +89,9 @@ mod tests {
     use crate::bounded::Bounded;
 
     fn noise() -> Texture {
-        let values: Vec<f32> = (0..64u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 16 & 255) as f32 / 255.0).collect();
+        let values: Vec<f32> = (0..64u32)
+            .map(|i| (i.wrapping_mul(2_654_435_761) >> 16 & 255) as f32 / 255.0)
+            .collect();
         Texture::from_r32float(8, 8, &values)
     }
 
@@ -102,8 +108,14 @@ mod tests {
                 &[Bounded::within(uv.x, error), Bounded::within(uv.y, error)],
             );
             for (dx, dy) in [(-1.0, -1.0), (1.0, -1.0), (0.3, 0.9), (0.0, 0.0), (-0.5, 1.0)] {
-                let near = texture.sample(EdgeMode::Mirror, uv + error * DVec2::new(dx, dy)).x;
-                assert!(bound[0].contains(near), "{uv} {dx} {dy}: {near} not in {:?}", bound[0]);
+                let near = texture
+                    .sample(EdgeMode::Mirror, uv + error * DVec2::new(dx, dy))
+                    .x;
+                assert!(
+                    bound[0].contains(near),
+                    "{uv} {dx} {dy}: {near} not in {:?}",
+                    bound[0]
+                );
             }
         }
     }
@@ -111,20 +123,35 @@ mod tests {
     #[test]
     fn a_constant_texture_stays_constant() {
         let white = Texture::from_rgba8(1, 1, &[255, 128, 0, 255]);
-        let bound = sample(&white, Storage::Unorm8, EdgeMode::Wrap, &[Bounded::input(3.7), Bounded::input(-2.0)]);
+        let bound = sample(
+            &white,
+            Storage::Unorm8,
+            EdgeMode::Wrap,
+            &[Bounded::input(3.7), Bounded::input(-2.0)],
+        );
         assert!(bound[1].error < 1e-6 && (bound[1].value - 128.0 / 255.0).abs() < 1e-12);
     }
 
     #[test]
     fn the_wrong_texel_is_outside() {
         let texture = Texture::from_rgba8(2, 1, &[0, 0, 0, 255, 255, 255, 255, 255]);
-        let bound = sample(&texture, Storage::Unorm8, EdgeMode::Clamp, &[Bounded::input(0.25), Bounded::input(0.5)]);
+        let bound = sample(
+            &texture,
+            Storage::Unorm8,
+            EdgeMode::Clamp,
+            &[Bounded::input(0.25), Bounded::input(0.5)],
+        );
         assert!(bound[0].contains(0.004) && !bound[0].contains(0.02));
     }
 
     #[test]
     fn a_coordinate_that_is_not_known_leaves_it_open() {
-        let bound = sample(&noise(), Storage::Float32, EdgeMode::Wrap, &[Bounded::OPEN, Bounded::input(0.5)]);
+        let bound = sample(
+            &noise(),
+            Storage::Float32,
+            EdgeMode::Wrap,
+            &[Bounded::OPEN, Bounded::input(0.5)],
+        );
         assert!(bound.iter().all(|channel| !channel.is_decided()));
     }
 }

@@ -3,8 +3,8 @@
 use bossage_assets::EdgeMode;
 use bossage_reference::surface::{Fragment as Truth, shade};
 use bossage_runner::{
-    AddressMode, Clear, Cull, Draw as RunnerDraw, Mesh, Picture, RenderJob, Resources, SamplerSettings, TextureData,
-    is_unwritten,
+    AddressMode, Clear, Cull, Draw as RunnerDraw, Mesh, Picture, RenderJob, Resources, SamplerSettings,
+    TextureData, is_unwritten,
 };
 use bossage_scene::{Draw, Texels, Texture};
 use bossage_shaders::{Alpha, FeatureSet, Stage};
@@ -39,13 +39,18 @@ pub(super) fn render(bench: &Bench<'_>, draw: &Draw, size: [u32; 2]) -> Result<V
     let size = scaled(size);
     let picture = picture(bench, draw, &draw.features, Stage::Fragment, size, 1)?;
     // Without the alpha test, so that pixels that should be cut out are known too.
-    let uncut = FeatureSet { alpha: Alpha::Opaque, ..draw.features };
+    let uncut = FeatureSet {
+        alpha: Alpha::Opaque,
+        ..draw.features
+    };
     let capture = picture_of(bench, draw, &uncut, size)?;
     let got = picture.into_iter().next().ok_or("the draw has no picture")?;
     let covered = capture[0].covered();
     let context = Context::new(draw);
     let pixels = (0..got.pixels.len()).into_par_iter().filter(|at| covered[*at]);
-    Ok(pixels.map(|at| context.pixel(at, size, got.pixels[at], &capture)).collect())
+    Ok(pixels
+        .map(|at| context.pixel(at, size, got.pixels[at], &capture))
+        .collect())
 }
 
 /// The size with the same aspect whose longer side is [`LONGER_SIDE`].
@@ -54,7 +59,12 @@ fn scaled([width, height]: [u32; 2]) -> [u32; 2] {
     [width, height].map(|side| (side * LONGER_SIDE).div_ceil(longer).max(1))
 }
 
-fn picture_of(bench: &Bench<'_>, draw: &Draw, features: &FeatureSet, size: [u32; 2]) -> Result<Vec<Picture>, String> {
+fn picture_of(
+    bench: &Bench<'_>,
+    draw: &Draw,
+    features: &FeatureSet,
+    size: [u32; 2],
+) -> Result<Vec<Picture>, String> {
     picture(bench, draw, features, Stage::FragmentCapture, size, 1 + CAPTURED)
 }
 
@@ -67,16 +77,30 @@ fn picture(
     targets: usize,
 ) -> Result<Vec<Picture>, String> {
     let key = |stage: Stage| format!("{stage:?} {features:?}");
-    let vertex = bench.module(&key(Stage::Vertex), |library| library.assemble_surface(features, Stage::Vertex))?;
+    let vertex = bench.module(&key(Stage::Vertex), |library| {
+        library.assemble_surface(features, Stage::Vertex)
+    })?;
     let fragment = bench.module(&key(stage), |library| library.assemble_surface(features, stage))?;
     let (mesh, textures) = (mesh(draw), textures(draw));
-    let mut resources = Resources { uniforms: draw.uniforms.clone(), ..Resources::default() };
-    let (vertex, fragment) = (vertex.shader("surface_vertex")?, fragment.shader("surface_fragment")?);
-    for (name, texture) in textures.iter().filter(|(name, _)| fragment.binding(name).is_some()) {
+    let mut resources = Resources {
+        uniforms: draw.uniforms.clone(),
+        ..Resources::default()
+    };
+    let (vertex, fragment) = (
+        vertex.shader("surface_vertex")?,
+        fragment.shader("surface_fragment")?,
+    );
+    for (name, texture) in textures
+        .iter()
+        .filter(|(name, _)| fragment.binding(name).is_some())
+    {
         resources.textures.insert(name.clone(), texture);
     }
     if fragment.binding("surface_sampler").is_some() {
-        let settings = SamplerSettings { address: address(draw.edge), ..SamplerSettings::default() };
+        let settings = SamplerSettings {
+            address: address(draw.edge),
+            ..SamplerSettings::default()
+        };
         resources.samplers.insert("surface_sampler".to_owned(), settings);
     }
     let runner_draw = RunnerDraw {
@@ -89,8 +113,18 @@ fn picture(
         depth: Default::default(),
     };
     let targets = vec![Clear::Sentinel; targets];
-    let job = RenderJob { name: &draw.object, width, height, targets, read_depth: false, draws: vec![runner_draw] };
-    Ok(job.run(bench.device).map_err(|error| with_causes(&error))?.targets)
+    let job = RenderJob {
+        name: &draw.object,
+        width,
+        height,
+        targets,
+        read_depth: false,
+        draws: vec![runner_draw],
+    };
+    Ok(job
+        .run(bench.device)
+        .map_err(|error| with_causes(&error))?
+        .targets)
 }
 
 fn address(edge: EdgeMode) -> AddressMode {
@@ -115,7 +149,10 @@ fn mesh(draw: &Draw) -> Mesh {
 
 /// The first level of each texture.
 fn textures(draw: &Draw) -> Vec<(String, TextureData)> {
-    draw.textures.iter().filter_map(|(name, texture)| Some((name.clone(), texture_data(texture)?))).collect()
+    draw.textures
+        .iter()
+        .filter_map(|(name, texture)| Some((name.clone(), texture_data(texture)?)))
+        .collect()
 }
 
 fn texture_data(texture: &Texture) -> Option<TextureData> {
@@ -138,15 +175,23 @@ impl<'a> Context<'a> {
     fn new(draw: &'a Draw) -> Self {
         let maps = Maps::new(draw);
         let reference = material(draw, &maps);
-        Self { draw, maps, reference }
+        Self {
+            draw,
+            maps,
+            reference,
+        }
     }
 
     fn pixel(&self, at: usize, [width, _]: [u32; 2], got: [f32; 4], capture: &[Picture]) -> Pixel {
         let read = |target: usize| capture[target].pixels[at].map(|x| if is_unwritten(x) { 0.0 } else { x });
         let three = |[x, y, z, _]: [f32; 4]| [x, y, z];
         let [u, v, ..] = read(4);
-        let interpolants =
-            Interpolants { position: three(read(1)), normal: three(read(2)), tangent: read(3), uv: [u, v] };
+        let interpolants = Interpolants {
+            position: three(read(1)),
+            normal: three(read(2)),
+            tangent: read(3),
+            uv: [u, v],
+        };
         let (x, y) = (at as u32 % width, at as u32 / width);
         let place = [
             &[x as f32, y as f32],
