@@ -1,6 +1,7 @@
 //! Running programs: compute dispatches, vertices, fragments, probes.
 
 mod batches;
+mod ports;
 mod prepare;
 
 use crate::bindings::{Bindings, BufferData, Scalar};
@@ -62,7 +63,12 @@ fn expect_stage(program: &Program, stage: ShaderStage, wanted: &'static str) -> 
         ShaderStage::Vertex => "vertex",
         ShaderStage::Fragment => "fragment",
         ShaderStage::Compute => "compute",
-        _ => "other",
+        ShaderStage::Task
+        | ShaderStage::Mesh
+        | ShaderStage::RayGeneration
+        | ShaderStage::Miss
+        | ShaderStage::AnyHit
+        | ShaderStage::ClosestHit => "other",
     };
     Err(Error::WrongStage {
         name: program.name.clone(),
@@ -101,7 +107,7 @@ pub fn run_fragment<D: Domain>(
     limits: &Limits,
 ) -> Result<(StageOutputs<D>, Outcome)> {
     expect_stage(program, ShaderStage::Fragment, "fragment")?;
-    if program.uses_derivatives() && inputs.count % 4 != 0 {
+    if program.uses_derivatives() && !inputs.count.is_multiple_of(4) {
         let reason = format!(
             "the shader takes derivatives, so fragments come in quads of four; {} were given",
             inputs.count

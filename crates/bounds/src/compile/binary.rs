@@ -2,7 +2,7 @@
 
 use super::builder::{Builder, Frame, Val};
 use super::code::{Op, Row};
-use super::layout::unsupported;
+use super::layout::{opaque_type, unsupported};
 use crate::domain::ops::{BoolBinary, Compare, FloatBinary, FloatUnary, IntBinary};
 use crate::error::Result;
 use crate::kind::Kind;
@@ -24,7 +24,11 @@ fn shape(inner: &TypeInner) -> Shape {
             columns: columns as usize,
             rows: rows as usize,
         },
-        _ => Shape::Scalar,
+        TypeInner::Scalar(_)
+        | TypeInner::Atomic(_)
+        | TypeInner::Array { .. }
+        | TypeInner::Struct { .. }
+        | opaque_type!() => Shape::Scalar,
     }
 }
 

@@ -116,7 +116,21 @@ impl<'m> Builder<'m> {
     ) -> Result<Val> {
         let dim = match *self.type_of(frame, image) {
             naga::TypeInner::Image { dim, .. } => dim,
-            _ => return unsupported("a query of something else than a texture", span),
+            naga::TypeInner::Scalar(_)
+            | naga::TypeInner::Vector { .. }
+            | naga::TypeInner::Matrix { .. }
+            | naga::TypeInner::Atomic(_)
+            | naga::TypeInner::Array { .. }
+            | naga::TypeInner::Struct { .. }
+            | naga::TypeInner::Pointer { .. }
+            | naga::TypeInner::ValuePointer { .. }
+            | naga::TypeInner::CooperativeMatrix { .. }
+            | naga::TypeInner::AccelerationStructure { .. }
+            | naga::TypeInner::RayQuery { .. }
+            | naga::TypeInner::Sampler { .. }
+            | naga::TypeInner::BindingArray { .. } => {
+                return unsupported("a query of something else than a texture", span);
+            }
         };
         let image = self.value(frame, image)?.handle(span)?;
         let (query, level, parts) = match query {

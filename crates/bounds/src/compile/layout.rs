@@ -5,6 +5,21 @@ use crate::kind::Kind;
 use naga::proc::GlobalCtx;
 use naga::{ArraySize, Handle, Module, Scalar, Span, Type, TypeInner, VectorSize};
 
+/// Types that are no numbers and hold none.
+macro_rules! opaque_type {
+    () => {
+        TypeInner::Pointer { .. }
+            | TypeInner::ValuePointer { .. }
+            | TypeInner::Image { .. }
+            | TypeInner::Sampler { .. }
+            | TypeInner::CooperativeMatrix { .. }
+            | TypeInner::AccelerationStructure { .. }
+            | TypeInner::RayQuery { .. }
+            | TypeInner::BindingArray { .. }
+    };
+}
+pub(crate) use opaque_type;
+
 /// Types larger than this many scalars are refused where they would have to be held by every invocation.
 pub(crate) const MAX_SCALARS: u64 = 1 << 26;
 
@@ -138,14 +153,24 @@ impl<'m> Types<'m> {
                 Some(last) if self.is_runtime(last.ty)? => Ok(last.offset as usize),
                 Some(_) | None => Ok(inner.size(self.context()) as usize),
             },
-            _ => Ok(inner.size(self.context()) as usize),
+            TypeInner::Scalar(_)
+            | TypeInner::Vector { .. }
+            | TypeInner::Matrix { .. }
+            | TypeInner::Atomic(_)
+            | TypeInner::Array { .. }
+            | opaque_type!() => Ok(inner.size(self.context()) as usize),
         }
     }
 
     fn is_runtime(&self, ty: Handle<Type>) -> Result<bool> {
         match *self.inner(ty) {
             TypeInner::Array { size, .. } => Ok(self.length(size)?.is_none()),
-            _ => Ok(false),
+            TypeInner::Scalar(_)
+            | TypeInner::Vector { .. }
+            | TypeInner::Matrix { .. }
+            | TypeInner::Atomic(_)
+            | TypeInner::Struct { .. }
+            | opaque_type!() => Ok(false),
         }
     }
 
@@ -189,7 +214,9 @@ impl<'m> Types<'m> {
                 let stride = column_stride(rows) * k.bytes();
                 (0..columns as usize).for_each(|c| column(k, rows as usize, at + c * stride));
             }
-            _ => return unsupported("a buffer of this type", Span::UNDEFINED),
+            TypeInner::Array { .. } | TypeInner::Struct { .. } | opaque_type!() => {
+                return unsupported("a buffer of this type", Span::UNDEFINED);
+            }
         }
         Ok(())
     }

@@ -303,9 +303,30 @@ fn handle(ty: &Type, builder: &Builder<'_>) -> Result<ResourceKind> {
             TypeInner::Sampler { comparison } => Ok(ResourceKind::Sampler {
                 comparison: *comparison,
             }),
-            _ => unsupported("a binding array of buffers", Span::UNDEFINED),
+            TypeInner::Scalar(_)
+            | TypeInner::Vector { .. }
+            | TypeInner::Matrix { .. }
+            | TypeInner::Atomic(_)
+            | TypeInner::Array { .. }
+            | TypeInner::Struct { .. }
+            | TypeInner::Pointer { .. }
+            | TypeInner::ValuePointer { .. }
+            | TypeInner::CooperativeMatrix { .. }
+            | TypeInner::AccelerationStructure { .. }
+            | TypeInner::RayQuery { .. }
+            | TypeInner::BindingArray { .. } => unsupported("a binding array of buffers", Span::UNDEFINED),
         },
-        _ => unsupported("a handle of this type", Span::UNDEFINED),
+        TypeInner::Scalar(_)
+        | TypeInner::Vector { .. }
+        | TypeInner::Matrix { .. }
+        | TypeInner::Atomic(_)
+        | TypeInner::Array { .. }
+        | TypeInner::Struct { .. }
+        | TypeInner::Pointer { .. }
+        | TypeInner::ValuePointer { .. }
+        | TypeInner::CooperativeMatrix { .. }
+        | TypeInner::AccelerationStructure { .. }
+        | TypeInner::RayQuery { .. } => unsupported("a handle of this type", Span::UNDEFINED),
     }
 }
 

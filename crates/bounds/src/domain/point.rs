@@ -48,7 +48,7 @@ pub(crate) fn float_unary(op: FloatUnary, w: Width, a: f64, r: impl Fn(f64) -> f
         FloatUnary::Negate => -a,
         FloatUnary::Abs => a.abs(),
         FloatUnary::Sign => sign(a),
-        FloatUnary::Saturate => a.max(0.0).min(1.0),
+        FloatUnary::Saturate => minimum(maximum(a, 0.0), 1.0),
         FloatUnary::Floor => a.floor(),
         FloatUnary::Ceil => a.ceil(),
         FloatUnary::Round => a.round_ties_even(),
@@ -170,7 +170,7 @@ fn float_ternary(
         FloatTernary::Clamp => minimum(maximum(a, b), c),
         FloatTernary::Mix => r(r(a * r(1.0 - c)) + r(b * c)),
         FloatTernary::SmoothStep => {
-            let t = r(r(c - a) / r(b - a)).max(0.0).min(1.0);
+            let t = minimum(maximum(r(r(c - a) / r(b - a)), 0.0), 1.0);
             r(r(t * t) * r(3.0 - r(2.0 * t)))
         }
     }

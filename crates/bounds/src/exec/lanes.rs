@@ -182,8 +182,11 @@ impl<'a, D: Domain> Machine<'a, D> {
             return None;
         }
         let (mine, other) = (mine.unwrap_or_default(), other.unwrap_or_default());
-        let mut merged = Overlay::<D>::default();
-        merged.lost = mine.lost.union(&other.lost).copied().collect();
+        let lost = mine.lost.union(&other.lost).copied().collect();
+        let mut merged = Overlay::<D> {
+            cells: BTreeMap::new(),
+            lost,
+        };
         for (&at, &(cell, kind)) in mine.cells.iter().chain(&other.cells) {
             let (a, b) = (self.through(&mine, at, kind), self.through(&other, at, kind));
             merged

@@ -26,6 +26,8 @@ macro_rules! by_width {
 }
 
 impl<'a, D: Domain> Machine<'a, D> {
+    /// Not inlined: its frame would be paid for at every level of nested control flow.
+    #[inline(never)]
     pub(crate) fn instruction(&mut self, instr: &'a Instr, active: &[u32]) -> Result<()> {
         self.count(instr, active.len() as u64);
         match &instr.op {

@@ -1,5 +1,6 @@
 //! Splitting a run into batches, on all cores, with results that do not depend on how many there are.
 
+use super::ports::{default_input, foreign_builtin, input_columns, slot_of, unsupported_port, wrong_kind};
 use super::prepare::Prepared;
 use crate::bindings::Scalar;
 use crate::compile::code::{Node, Op};
@@ -8,9 +9,9 @@ use crate::domain::{Domain, Truth};
 use crate::error::{Error, Result};
 use crate::exec::machine::{Context, Counters, Machine};
 use crate::exec::memory::{Memory, Pages};
-use crate::kind::{IntType, Kind};
+use crate::kind::IntType;
 use crate::limits::Limits;
-use crate::stage::{Column, Slot, StageInputs, StageOutputs};
+use crate::stage::{Column, StageInputs, StageOutputs};
 use naga::{Binding, BuiltIn};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -172,7 +173,19 @@ fn set_compute_input<D: Domain>(
             BuiltIn::SubgroupId => [lane / sub, 0, 0],
             BuiltIn::SubgroupSize => [sub, 0, 0],
             BuiltIn::SubgroupInvocationId => [lane % sub, 0, 0],
-            _ => [0; 3],
+            BuiltIn::PrimitiveIndex
+            | BuiltIn::Position { .. }
+            | BuiltIn::ViewIndex
+            | BuiltIn::ClipDistances
+            | BuiltIn::InstanceIndex
+            | BuiltIn::PointSize
+            | BuiltIn::VertexIndex
+            | BuiltIn::FragDepth
+            | BuiltIn::FrontFacing
+            | BuiltIn::Barycentric { .. }
+            | BuiltIn::SampleIndex
+            | BuiltIn::SampleMask
+            | foreign_builtin!() => [0; 3],
         };
         for (&row, value) in port.rows.iter().zip(values) {
             machine.set(row, lane as u32, D::int(IntType::U32, value as i128));
@@ -269,102 +282,4 @@ fn set_stage_input<D: Domain>(
         }
     }
     Ok(())
-}
-
-fn wrong_kind(port: &Port, kind: Kind) -> Error {
-    Error::Input {
-        input: name_of(&port.binding),
-        reason: format!("a value of another kind than {kind:?}, or out of its range"),
-    }
-}
-
-/// What built-ins are when the caller says nothing: the front of the first instance, everything covered.
-fn default_input<D: Domain>(binding: &Binding, kind: Kind) -> D::Cell {
-    match (binding, kind) {
-        (Binding::BuiltIn(BuiltIn::FrontFacing), _) => D::bool(true),
-        (Binding::BuiltIn(BuiltIn::SampleMask), Kind::Int(t)) => D::int(t, t.max().min(i128::from(u32::MAX))),
-        (_, kind) => crate::exec::places::zero::<D>(kind),
-    }
-}
-
-fn may_be_absent(slot: Slot) -> bool {
-    match slot {
-        Slot::Location(..) | Slot::Position | Slot::VertexIndex => false,
-        Slot::InstanceIndex
-        | Slot::FrontFacing
-        | Slot::SampleIndex
-        | Slot::SampleMask
-        | Slot::FragDepth
-        | Slot::PrimitiveIndex
-        | Slot::ViewIndex
-        | Slot::ClipDistances
-        | Slot::Barycentric
-        | Slot::PointSize => true,
-    }
-}
-
-fn input_columns<'a, D: Domain>(
-    program: &Program,
-    inputs: &'a StageInputs<D>,
-) -> Result<Vec<Option<&'a Column<D>>>> {
-    let mut columns = Vec::with_capacity(program.inputs.len());
-    for port in &program.inputs {
-        let wrong = |reason: String| Error::Input {
-            input: name_of(&port.binding),
-            reason,
-        };
-        let slot = slot_of(&port.binding).ok_or_else(|| unsupported_port("input", &port.binding))?;
-        let column = inputs.columns.get(&slot);
-        match column {
-            None if may_be_absent(slot) => {}
-            None => return Err(wrong("has no values; set it in the stage inputs".into())),
-            Some(c) if c.components < port.rows.len() || c.values.len() != c.components * inputs.count => {
-                let (need, have) = (port.rows.len(), c.components);
-                let reason = format!(
-                    "needs {need} scalars for each of {} invocations; {} were given, {have} each",
-                    inputs.count,
-                    c.values.len()
-                );
-                return Err(wrong(reason));
-            }
-            Some(_) => {}
-        }
-        columns.push(column);
-    }
-    Ok(columns)
-}
-
-fn unsupported_port(what: &str, binding: &Binding) -> Error {
-    Error::Unsupported {
-        what: format!("the {what} {}", name_of(binding)),
-        span: naga::Span::UNDEFINED,
-    }
-}
-
-fn name_of(binding: &Binding) -> String {
-    match binding {
-        Binding::Location { location, .. } => format!("location {location}"),
-        Binding::BuiltIn(builtin) => format!("{builtin:?}"),
-    }
-}
-
-fn slot_of(binding: &Binding) -> Option<Slot> {
-    match binding {
-        Binding::Location {
-            location, blend_src, ..
-        } => Some(Slot::Location(*location, blend_src.unwrap_or(0))),
-        Binding::BuiltIn(BuiltIn::Position { .. }) => Some(Slot::Position),
-        Binding::BuiltIn(BuiltIn::VertexIndex) => Some(Slot::VertexIndex),
-        Binding::BuiltIn(BuiltIn::InstanceIndex) => Some(Slot::InstanceIndex),
-        Binding::BuiltIn(BuiltIn::FrontFacing) => Some(Slot::FrontFacing),
-        Binding::BuiltIn(BuiltIn::SampleIndex) => Some(Slot::SampleIndex),
-        Binding::BuiltIn(BuiltIn::SampleMask) => Some(Slot::SampleMask),
-        Binding::BuiltIn(BuiltIn::FragDepth) => Some(Slot::FragDepth),
-        Binding::BuiltIn(BuiltIn::PrimitiveIndex) => Some(Slot::PrimitiveIndex),
-        Binding::BuiltIn(BuiltIn::ViewIndex) => Some(Slot::ViewIndex),
-        Binding::BuiltIn(BuiltIn::ClipDistances) => Some(Slot::ClipDistances),
-        Binding::BuiltIn(BuiltIn::Barycentric { .. }) => Some(Slot::Barycentric),
-        Binding::BuiltIn(BuiltIn::PointSize) => Some(Slot::PointSize),
-        Binding::BuiltIn(_) => None,
-    }
 }

@@ -160,7 +160,7 @@ fn cells_of_scalars<D: Domain>(
         && if element == 0 {
             rest == 0
         } else {
-            rest % element == 0
+            rest.is_multiple_of(element)
         };
     if !fits {
         let reason = format!(

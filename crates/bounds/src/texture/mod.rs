@@ -8,7 +8,9 @@
 pub(crate) mod cube;
 pub(crate) mod filter;
 pub(crate) mod format;
+pub(crate) mod loads;
 pub(crate) mod lod;
+pub(crate) mod request;
 
 pub use format::TexelFormat;
 pub(crate) use format::storage_kind;
@@ -182,7 +184,7 @@ impl Texture {
                 bad("a 1D texture has height and depth 1".into())
             }
             Dimension::D2 if size[2] != 1 => bad("a 2D texture has depth 1; layers are given apart".into()),
-            Dimension::Cube if size[0] != size[1] || size[2] != 1 || self.layers % 6 != 0 => {
+            Dimension::Cube if size[0] != size[1] || size[2] != 1 || !self.layers.is_multiple_of(6) => {
                 bad("a cube has square faces and a multiple of six layers".into())
             }
             Dimension::D1 | Dimension::D2 | Dimension::D3 | Dimension::Cube => Ok(()),

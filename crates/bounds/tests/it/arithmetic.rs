@@ -8,8 +8,11 @@ fn bits(list: &[f64]) -> Vec<u32> {
     list.iter().map(|&x| (x as f32).to_bits()).collect()
 }
 
+/// An expression, and what it is in the processor's arithmetic.
+type Case = (&'static str, fn(f32, f32) -> f32);
+
 /// The operations that a perfect machine rounds correctly, against the processor's own.
-fn exact_cases() -> Vec<(&'static str, fn(f32, f32) -> f32)> {
+fn exact_cases() -> Vec<Case> {
     vec![
         ("a[2u*i] + a[2u*i+1u]", |x, y| x + y),
         ("a[2u*i] - a[2u*i+1u]", |x, y| x - y),

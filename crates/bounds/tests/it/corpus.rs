@@ -6,10 +6,6 @@ use bossage_bounds::{
 };
 use naga::back::PipelineConstants;
 
-fn bytes(words: &[u32]) -> Vec<u8> {
-    words.iter().flat_map(|w| w.to_le_bytes()).collect()
-}
-
 fn floats(list: &[f32]) -> Vec<u8> {
     list.iter().flat_map(|w| w.to_le_bytes()).collect()
 }
@@ -179,7 +175,7 @@ fn shared() {
         b.read_ints(0, 1).unwrap(),
         [sums[0], sums[0], 7, 1, sums[1], sums[1], 8 + 63, 1]
     );
-    let xor = (0..64).fold(0, |x, k| x ^ k) * 0;
+    let xor = (0..64).fold(0, |x, k| x ^ k);
     assert_eq!(
         b.read_ints(0, 2).unwrap(),
         [2 * sums[0], -128, 63, -63, 64, 63, xor, 63, 1]
@@ -274,7 +270,8 @@ fn subgroups() {
     let ids = 0..32u32;
     let sum: u32 = ids.clone().sum();
     let bits = 32 + 31 + ids.fold(0, |x, k| x ^ k);
-    let quad = 2 + 10 * 0 + 100 * 3 + 1000 * 2;
+    // Broadcast 2; across x 0; across y 3; across the diagonal 2.
+    let quad = 2 + 100 * 3 + 1000 * 2;
     let want = [
         0xaaaa_aaaa,
         sum,

@@ -97,6 +97,29 @@ fn deep_calls_are_refused_without_a_crash() {
     ));
 }
 
+/// Deep but lawful nesting fits the stack of a worker thread, which is smaller than the main thread's.
+#[test]
+fn deep_nesting_within_the_limit_runs() {
+    let mut source = String::from("fn g0(x: f32) -> f32 { return x; }\n");
+    for k in 1..100 {
+        source += &format!(
+            "fn g{k}(x: f32) -> f32 {{ var r = x; for (var i = 0; i < 1; i++) {{ if (x > -1.0) {{ r = g{}(x) + 1.0; }} }} return r; }}\n",
+            k - 1
+        );
+    }
+    let p = program(&(source + &probe_source("o[i] = g99(a[i]);")));
+    assert_eq!(
+        run_probe::<F32>(&p, &[0.5], 1, 1, &Limits::default()).unwrap().0,
+        [99.5]
+    );
+    assert!(
+        run_probe::<Accept>(&p, &[0.5], 1, 1, &Limits::default())
+            .unwrap()
+            .0[0]
+            .contains(99.5)
+    );
+}
+
 #[test]
 fn counters_count_what_runs() {
     let p = program(&probe_source(
