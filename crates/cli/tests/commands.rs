@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
-use tool::{bossage, bossage_without_adapter, entries, repository, text};
+use tool::{Run, bossage, bossage_without_adapter, copy, entries, repository, text};
 
 fn parsed(text: &str) -> Value {
     serde_json::from_str(text).unwrap_or_else(|error| panic!("{error} in:\n{text}"))
@@ -131,6 +131,65 @@ fn check_passes_good_shaders_and_fails_bad_ones() {
     fs::write(&compute, "@compute @workgroup_size(1) fn main() {}").unwrap();
     let run = bossage(&["check", text(&compute), "--glsl", "330", "--cache", text(&cache)]).exits(1);
     assert!(run.stdout.contains("glsl   FAIL"), "{}", run.stdout);
+}
+
+/// Runs with a `spirv-val` first in the search path that rejects everything: the testers are tested too.
+#[cfg(unix)]
+fn bossage_with_a_hostile_validator(folder: &Path, arguments: &[&str]) -> Run {
+    use std::os::unix::fs::PermissionsExt;
+    let tool = folder.join("spirv-val");
+    let script = "#!/bin/sh\nif [ \"$1\" = --version ]; then echo 'SPIRV-Tools v0.0 hostile'; exit 0; fi\necho 'I do not like it'; exit 1\n";
+    fs::write(&tool, script).unwrap();
+    fs::set_permissions(&tool, fs::Permissions::from_mode(0o755)).unwrap();
+    let path = format!("{}:{}", text(folder), std::env::var("PATH").unwrap_or_default());
+    let mut command = tool::command(arguments);
+    command.env("PATH", path).env("XDG_CACHE_HOME", folder);
+    command.output().unwrap().into()
+}
+
+#[cfg(unix)]
+#[test]
+fn what_an_external_compiler_rejects_fails_the_check_and_the_demo() {
+    let folder = tempfile::tempdir().unwrap();
+    let shader = repository("examples/user_shader.wgsl");
+    let run = bossage_with_a_hostile_validator(folder.path(), &["check", text(&shader)]).exits(1);
+    assert!(
+        run.stdout.contains("spirv  FAIL") && run.stdout.contains("I do not like it"),
+        "{}",
+        run.stdout
+    );
+    let run = bossage_with_a_hostile_validator(folder.path(), &["check", text(&shader), "--json"]).exits(1);
+    let check = &parsed(&run.stdout)["inputs"][0]["targets"]["spirv"]["checks"][0];
+    assert_eq!(
+        (check["tool"].as_str(), check["state"].as_str()),
+        (Some("spirv-val"), Some("fail"))
+    );
+    let out = folder.path().join("demo");
+    bossage_with_a_hostile_validator(folder.path(), &["demo", "-o", text(&out)]).exits(1);
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("Something failed") && page.contains("I do not like it"));
+}
+
+/// A library that is wrong in one sign must not pass.
+#[test]
+fn a_shader_broken_on_purpose_is_caught() {
+    if !has_adapter() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let shaders = folder.path().join("shaders");
+    copy(&repository("shaders"), &shaders);
+    let file = shaders.join("lib/lambert.wesl");
+    let source = fs::read_to_string(&file).unwrap();
+    let broken = source.replace("dot(normal, light_dir)", "dot(normal, -light_dir)");
+    assert_ne!(broken, source);
+    fs::write(&file, broken).unwrap();
+    let run = bossage(&["conform", "dot3/hardened/", "--shader-dir", text(&shaders)]).exits(1);
+    assert!(
+        run.stdout.contains("FAIL: dot3/hardened/") && run.stdout.contains("again: bossage conform"),
+        "{}",
+        run.stdout
+    );
 }
 
 #[test]
@@ -396,7 +455,7 @@ fn conform_lists_runs_and_reports() {
         .args(["-c", &script, env!("CARGO_BIN_EXE_bossage")])
         .output()
         .unwrap();
-    let again = parsed(&tool::Run::from(output).exits(0).stdout);
+    let again = parsed(&Run::from(output).exits(0).stdout);
     let again = again["cases"].as_array().unwrap();
     assert!(
         again

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::time::SystemTime;
 
 use serde_json::Value;
-use tool::{bossage, command, entries, repository, text};
+use tool::{bossage, command, copy, entries, repository, text};
 
 const COMPUTE: &str = "@group(0) @binding(0) var<storage, read_write> values: array<f32>;
 @compute @workgroup_size(64)
@@ -242,18 +242,6 @@ fn wgsl(out: &Path) -> BTreeMap<String, Vec<u8>> {
     names
         .map(|name| (name.clone(), fs::read(out.join(name)).unwrap()))
         .collect()
-}
-
-fn copy(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for name in entries(from) {
-        let (from, to) = (from.join(&name), to.join(&name));
-        if from.is_dir() {
-            copy(&from, &to);
-        } else {
-            fs::copy(&from, &to).unwrap();
-        }
-    }
 }
 
 #[test]

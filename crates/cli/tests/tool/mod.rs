@@ -99,3 +99,16 @@ pub(crate) fn entries(folder: &Path) -> Vec<String> {
     names.sort();
     names
 }
+
+/// Copies a folder with all that is in it.
+pub(crate) fn copy(from: &Path, to: &Path) {
+    std::fs::create_dir_all(to).expect("the copy can be made");
+    for name in entries(from) {
+        let (from, to) = (from.join(&name), to.join(&name));
+        if from.is_dir() {
+            copy(&from, &to);
+        } else {
+            std::fs::copy(&from, &to).expect("the copy can be made");
+        }
+    }
+}
