@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::bounded::Bounded;
 use crate::report::json::Number;
-use crate::ulp::error_ulps;
+use crate::ulp::{MIN_NORMAL, error_ulps};
 
 /// What one output should be.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -204,7 +204,8 @@ fn refusal(got: f32, expected: &Expected) -> Option<Refusal> {
     })
 }
 
-/// The order of "worse": refusals first, then the share of the allowed error that was used, then ULPs.
+/// The order of "worse": refusals first, then the share of the allowed error that was used. Accepted outputs that are
+/// forked or flushed use all of it by nature (a sign either way, a subnormal taken for zero) and would hide the rest.
 fn badness(got: f32, expected: &Expected, refusal: Option<Refusal>) -> f64 {
     let share = share_of_bound(f64::from(got), expected).unwrap_or(0.0).min(1e30);
     match refusal {
@@ -212,6 +213,7 @@ fn badness(got: f32, expected: &Expected, refusal: Option<Refusal>) -> f64 {
         Some(Refusal::OraclesDisagree) => 3e30,
         Some(Refusal::NotFinite) => 2e30,
         Some(Refusal::Outside) => 1e30 + share,
+        None if expected.bound.forked || expected.truth.abs() < MIN_NORMAL => 0.0,
         None => share,
     }
 }
@@ -314,6 +316,21 @@ mod tests {
             (comparison.refused, comparison.refusal),
             (1, Some(Refusal::Unwritten))
         );
+    }
+
+    #[test]
+    fn a_fork_does_not_hide_a_rounding_error() {
+        let sign = Expected {
+            truth: 1.0,
+            bound: Bounded {
+                forked: true,
+                ..Bounded::within(1.0, 2.0)
+            },
+        };
+        let mut comparison = compare(1.05, expect(1.0, 0.1));
+        comparison.item(&[], &[-1.0], &[sign]);
+        assert_eq!((comparison.refused, comparison.forked), (0, 1));
+        assert_eq!(comparison.worst.unwrap().got.0, 1.05f32.into());
     }
 
     #[test]

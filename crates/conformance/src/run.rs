@@ -68,7 +68,7 @@ impl Selection {
         }
     }
 
-    /// The cases that this selects.
+    /// The cases that this selects: a filter that is the whole name of a case selects just that one.
     ///
     /// # Errors
     /// [`Error::NoSuchCase`] when the filter finds none, [`Error::BadShard`].
@@ -76,7 +76,9 @@ impl Selection {
         let all = suite::cases(&self.scope());
         let known = all.len();
         let filter = self.filter.as_deref().unwrap_or_default();
-        let matching: Vec<_> = all.into_iter().filter(|case| case.id().matches(filter)).collect();
+        let exact = all.iter().any(|case| case.id().to_string() == filter);
+        let wanted = |id: &CaseId| if exact { id.to_string() == filter } else { id.matches(filter) };
+        let matching: Vec<_> = all.into_iter().filter(|case| wanted(case.id())).collect();
         if matching.is_empty() {
             return Err(Error::NoSuchCase {
                 filter: filter.to_owned(),
