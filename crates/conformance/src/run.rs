@@ -7,6 +7,7 @@ use bossage_shaders::Library;
 
 use crate::bench::Bench;
 use crate::case::Case;
+use crate::case_id::CaseId;
 use crate::environment::Environment;
 use crate::error::Error;
 use crate::generate::random;
