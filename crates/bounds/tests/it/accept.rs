@@ -117,7 +117,7 @@ fn all_expressions() -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::common::cases(64))]
 
     /// What a perfect machine returns lies in the acceptance interval, for every rule, on hard inputs.
     #[test]

@@ -26,7 +26,7 @@ fn exact_cases() -> Vec<Case> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(64))]
+    #![proptest_config(crate::common::cases(64))]
 
     #[test]
     fn f32_results_are_bit_exact(values in prop::collection::vec(any::<f32>().prop_filter("number", |x| !x.is_nan()), 128)) {

@@ -62,3 +62,15 @@ pub(crate) fn source(name: &str) -> String {
     let path = format!("{}/tests/corpus/{name}.wgsl", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
 }
+
+/// How many cases a property is tried on; `BOSSAGE_BOUNDS_CASES` multiplies it, for long runs.
+pub(crate) fn cases(n: u32) -> proptest::test_runner::Config {
+    let factor = std::env::var("BOSSAGE_BOUNDS_CASES")
+        .ok()
+        .and_then(|f| f.parse().ok())
+        .unwrap_or(1);
+    proptest::test_runner::Config {
+        cases: n.saturating_mul(factor),
+        ..Default::default()
+    }
+}

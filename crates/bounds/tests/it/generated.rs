@@ -79,7 +79,7 @@ fn shader() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(crate::common::cases(300))]
 
     #[test]
     fn random_programs_evaluate_everywhere(source in shader(), inputs in prop::array::uniform3(-4.0f32..4.0)) {

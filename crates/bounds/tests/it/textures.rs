@@ -258,7 +258,7 @@ fn lookup<D: Domain>(mode: AddressMode, filter: Filter, u: D::Float, v: D::Float
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(200))]
+    #![proptest_config(crate::common::cases(200))]
 
     /// The interval contains filtering at every coordinate that 8 sub-texel bits allow, and is not wider than that asks for.
     #[test]
