@@ -3,7 +3,7 @@
 //! The translation is [naga]'s. What this crate adds is what an engine needs and naga leaves to wgpu:
 //!
 //! - every resource has a stated place in every language: real Metal slots, plain HLSL samplers and registers, GLSL names
-//!   and units ([`emit`]), written down in a [`Manifest`] so that nobody has to read the code to bind it;
+//!   and units ([`emit()`]), written down in a [`Manifest`] so that nobody has to read the code to bind it;
 //! - what a target cannot express is a [`Diagnostic`] with its place in the source, for that target alone; the other
 //!   targets are still emitted, and nothing panics;
 //! - compilers of others have the last word ([`external`]), and [`lint()`] warns of what no compiler refuses.

@@ -4,7 +4,7 @@
 //! in a directory, keyed by tool, version, arguments and content. A tool gets its input through a pipe, has
 //! [`TIME_LIMIT`] to answer, and may say [`OUTPUT_LIMIT`] bytes; the rest is dropped.
 //!
-//! One file a tool: a tool is a constant of [`Tool`]. To add one, write its file and list it in [`TOOLS`].
+//! One file a tool: a tool is a constant of `Tool`. To add one, write its file and list it in `TOOLS`.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;

@@ -1,6 +1,6 @@
 //! Rules about shaders that are valid but will hurt, one rule a file, each telling what went wrong without it.
 //!
-//! A rule finds something or it does not: none guesses. To add one, write its file and list it in [`RULES`].
+//! A rule finds something or it does not: none guesses. To add one, write its file and list it in `RULES`.
 
 use std::ops::Range;
 
