@@ -330,7 +330,7 @@ mod tests {
         let mut comparison = compare(1.05, expect(1.0, 0.1));
         comparison.item(&[], &[-1.0], &[sign]);
         assert_eq!((comparison.refused, comparison.forked), (0, 1));
-        assert_eq!(comparison.worst.unwrap().got.0, 1.05f32.into());
+        assert_eq!(comparison.worst.unwrap().got.0, f64::from(1.05f32));
     }
 
     #[test]
