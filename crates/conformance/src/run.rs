@@ -78,7 +78,13 @@ impl Selection {
         let known = all.len();
         let filter = self.filter.as_deref().unwrap_or_default();
         let exact = all.iter().any(|case| case.id().to_string() == filter);
-        let wanted = |id: &CaseId| if exact { id.to_string() == filter } else { id.matches(filter) };
+        let wanted = |id: &CaseId| {
+            if exact {
+                id.to_string() == filter
+            } else {
+                id.matches(filter)
+            }
+        };
         let matching: Vec<_> = all.into_iter().filter(|case| wanted(case.id())).collect();
         if matching.is_empty() {
             return Err(Error::NoSuchCase {
