@@ -136,6 +136,20 @@ const MUTANTS: &[Mutant] = &[
         to: "let z = -elevation(height,",
         filter: "scene/planned",
     },
+    Mutant {
+        what: "a highlight dropped that the scene calls for",
+        file: "entry/surface_fragment.wesl",
+        from: "    color += light.radiance.rgb\n        * blinn_phong(normal, light_dir, view_dir, albedo.rgb, material.specular.rgb, material.shininess);",
+        to: "    color += light.radiance.rgb * (saturate(dot(normal, light_dir)) * albedo.rgb);",
+        filter: "scene/agreement",
+    },
+    Mutant {
+        what: "a normal map dropped that the scene calls for",
+        file: "entry/surface_fragment.wesl",
+        from: "    @if(normal_map)\n    let normal = normalise(combine_frame(",
+        to: "    @if(normal_map && !many_lights)\n    let normal = normalise(interpolated.normal);\n    @elif(normal_map)\n    let normal = normalise(combine_frame(",
+        filter: "scene/agreement",
+    },
 ];
 
 fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
