@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use bossage_assets::EdgeMode;
 use bossage_runner::{
-    AddressMode, Blend, Clear, Code, Cull, Depth, Device, Draw, Mesh, RenderJob, Resources, SamplerSettings,
+    AddressMode, Blend, Clear, Code, Cull, Depth, Draw, Machine, Mesh, RenderJob, Resources, SamplerSettings,
     Shader as Stage, TexelFormat, TextureData, TextureDimension,
 };
 use bossage_scene::{Plan, Scene, Texels, Texture};
@@ -27,7 +27,7 @@ const BACKGROUND: [f32; 4] = [0.01, 0.01, 0.01, 1.0];
 const SAMPLER: &str = "surface_sampler";
 
 /// Draws a scene as planned, in the camera's size.
-pub(crate) fn draw(device: &Device, scene: &Scene, plan: &Plan, library: &Library) -> Result<Linear> {
+pub(crate) fn draw(machine: &dyn Machine, scene: &Scene, plan: &Plan, library: &Library) -> Result<Linear> {
     let modules = modules(plan, library)?;
     let draws = bossage_scene::draws(scene, plan);
     let meshes: Vec<Mesh> = draws.iter().map(|draw| mesh(&draw.mesh)).collect();
@@ -44,7 +44,7 @@ pub(crate) fn draw(device: &Device, scene: &Scene, plan: &Plan, library: &Librar
             .map(|(draw, mesh)| one(draw, mesh, &modules, &textures))
             .collect::<Result<_>>()?,
     };
-    let output = job.run(device)?;
+    let output = job.run(machine)?;
     let target = output.targets.into_iter().next().unwrap_or_default();
     let pixels = target.pixels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect();
     Ok(Linear {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use bossage_runner::Device;
+use bossage_runner::Machine;
 use bossage_shaders::{AssembledShader, Library};
 
 use crate::route::{Prepared, Route};
@@ -11,8 +11,8 @@ use crate::route::{Prepared, Route};
 /// An adapter and a route, with what has been prepared for them.
 #[derive(Debug)]
 pub struct Bench<'a> {
-    /// The device.
-    pub device: &'a Device,
+    /// What runs the shaders: a device, or the evaluator.
+    pub device: &'a dyn Machine,
     /// The route.
     pub route: Route,
     /// The shaders.
@@ -23,7 +23,7 @@ pub struct Bench<'a> {
 impl<'a> Bench<'a> {
     /// A bench with nothing prepared yet.
     #[must_use]
-    pub fn new(device: &'a Device, route: Route, library: &'a Library) -> Self {
+    pub fn new(device: &'a dyn Machine, route: Route, library: &'a Library) -> Self {
         Self {
             device,
             route,

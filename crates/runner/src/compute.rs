@@ -10,6 +10,7 @@ use crate::binding::{self, Bound};
 use crate::code::Shader;
 use crate::device::Device;
 use crate::error::Error;
+use crate::machine::Machine;
 use crate::resources::Resources;
 use crate::{layout, pipeline, readback};
 
@@ -53,9 +54,9 @@ impl ComputeJob<'_> {
     /// Runs the job and reads its writable buffers back.
     ///
     /// # Errors
-    /// When the resources don't fit the shader, the driver refuses, or memory ends.
-    pub fn run(&self, device: &Device) -> Result<ComputeOutput, Error> {
-        self.prepare(device)?.run(device, self.name)
+    /// When the resources don't fit the shader, the machine refuses, or memory ends.
+    pub fn run(&self, machine: &dyn Machine) -> Result<ComputeOutput, Error> {
+        machine.compute(self)
     }
 }
 
@@ -114,7 +115,7 @@ impl PreparedCompute {
         }
     }
 
-    fn run(&self, device: &Device, job: &str) -> Result<ComputeOutput, Error> {
+    pub(crate) fn run(&self, device: &Device, job: &str) -> Result<ComputeOutput, Error> {
         device.scoped(job, || {
             let mut encoder = device
                 .device

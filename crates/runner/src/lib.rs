@@ -9,6 +9,8 @@
 //! - [`RenderJob`]: meshes drawn to float targets;
 //! - [`time`]: how long a job takes.
 //!
+//! A [`Machine`] runs them: a [`Device`], or another implementation that needs no driver.
+//!
 //! Outputs hold a [sentinel](SENTINEL) before a shader runs, so what it never wrote can be told. Every failure is an
 //! [`Error`] of the job that met it; the device goes on. A [`Device`] may be shared between threads.
 //!
@@ -48,6 +50,7 @@ mod compute;
 mod device;
 mod error;
 mod layout;
+mod machine;
 mod mesh;
 mod passes;
 mod passthrough;
@@ -68,6 +71,7 @@ pub use code::{Code, Shader};
 pub use compute::{ComputeJob, ComputeOutput};
 pub use device::Device;
 pub use error::{Error, HOW_TO_GET_AN_ADAPTER};
+pub use machine::{DispatchLimits, Machine};
 pub use mesh::{Attribute, Mesh};
 pub use probe::{INPUTS, OUTPUTS, ProbeJob, run_probe};
 pub use render::{Blend, Clear, Cull, Depth, Draw, Picture, RenderJob, RenderOutput};

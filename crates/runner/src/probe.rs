@@ -9,8 +9,8 @@ use bossage_translate::manifest::Entry;
 
 use crate::code::{Code, Shader};
 use crate::compute::ComputeJob;
-use crate::device::Device;
 use crate::error::Error;
+use crate::machine::{DispatchLimits, Machine};
 use crate::resources::{BufferData, Resources};
 use crate::texture::TextureData;
 
@@ -46,7 +46,7 @@ pub struct ProbeJob<'a> {
 /// # Errors
 /// As [`ProbeJob::run`].
 pub fn run_probe(
-    device: &Device,
+    machine: &dyn Machine,
     code: Code<'_>,
     entry: &Entry,
     inputs: &[f32],
@@ -65,7 +65,7 @@ pub fn run_probe(
         textures: BTreeMap::new(),
         chunk_items: None,
     };
-    job.run(device)
+    job.run(machine)
 }
 
 impl ProbeJob<'_> {
@@ -73,17 +73,17 @@ impl ProbeJob<'_> {
     ///
     /// # Errors
     /// [`Error::Length`] when the inputs are no whole items; otherwise as [`ComputeJob::run`].
-    pub fn run(&self, device: &Device) -> Result<Vec<f32>, Error> {
+    pub fn run(&self, machine: &dyn Machine) -> Result<Vec<f32>, Error> {
         if self.items == 0 {
             return Ok(Vec::new());
         }
         let input_floats = self.input_floats()?;
-        let chunk = self.chunk(device, input_floats)?;
+        let chunk = self.chunk(machine.dispatch_limits(), input_floats)?;
         let mut outputs = Vec::with_capacity(self.items * self.output_floats);
         for start in (0..self.items).step_by(chunk) {
             let count = chunk.min(self.items - start);
             let inputs = &self.inputs[start * input_floats..(start + count) * input_floats];
-            outputs.extend(self.piece(inputs, count).run(device)?.floats(OUTPUTS));
+            outputs.extend(self.piece(inputs, count).run(machine)?.floats(OUTPUTS));
         }
         Ok(outputs)
     }
@@ -102,11 +102,9 @@ impl ProbeJob<'_> {
     }
 
     /// How many items go into one dispatch.
-    fn chunk(&self, device: &Device, input_floats: usize) -> Result<usize, Error> {
-        let limits = device.limits();
-        let groups = limits.max_compute_workgroups_per_dimension as usize;
-        let by_groups = groups * self.group_items();
-        let bytes = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    fn chunk(&self, limits: DispatchLimits, input_floats: usize) -> Result<usize, Error> {
+        let by_groups = limits.workgroups as usize * self.group_items();
+        let bytes = limits.buffer_bytes;
         let item_bytes = 4 * input_floats.max(self.output_floats).max(1);
         let by_bytes = usize::try_from(bytes).unwrap_or(usize::MAX) / item_bytes;
         let most = by_groups.min(by_bytes);

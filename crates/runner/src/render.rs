@@ -8,8 +8,8 @@
 //! [`Picture::covered`]. No multisampling.
 
 use crate::code::Shader;
-use crate::device::Device;
 use crate::error::Error;
+use crate::machine::Machine;
 use crate::mesh::Mesh;
 use crate::resources::Resources;
 
@@ -139,8 +139,8 @@ impl RenderJob<'_> {
     /// Renders and reads back.
     ///
     /// # Errors
-    /// When meshes, resources or targets don't fit the shaders, the driver refuses, or memory ends.
-    pub fn run(&self, device: &Device) -> Result<RenderOutput, Error> {
-        self.prepare(device)?.run(device, self)
+    /// When meshes, resources or targets don't fit the shaders, the machine refuses, or memory ends.
+    pub fn run(&self, machine: &dyn Machine) -> Result<RenderOutput, Error> {
+        machine.render(self)
     }
 }

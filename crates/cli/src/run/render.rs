@@ -1,6 +1,6 @@
 //! `bossage render`: a scene as a PNG, or two techniques side by side with their difference.
 
-use bossage_runner::{AdapterSelector, Device};
+use bossage_runner::{AdapterSelector, Device, Machine};
 use bossage_scene::Scene;
 use bossage_shaders::Library;
 
@@ -57,8 +57,8 @@ fn variants(scene: &Scene, args: &Render) -> Result<Vec<Scene>> {
 }
 
 /// A scene, planned and drawn.
-pub(crate) fn picture(device: &Device, scene: &Scene, library: &Library) -> Result<Linear> {
-    drawing::draw(device, scene, &bossage_scene::plan(scene), library)
+pub(crate) fn picture(machine: &dyn Machine, scene: &Scene, library: &Library) -> Result<Linear> {
+    drawing::draw(machine, scene, &bossage_scene::plan(scene), library)
 }
 
 fn compared(a: &Linear, b: &Linear, console: Console) -> Linear {

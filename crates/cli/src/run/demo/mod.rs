@@ -14,7 +14,7 @@ use bossage_conformance::bench::Bench;
 use bossage_conformance::environment::Environment;
 use bossage_conformance::generate::random::SEED;
 use bossage_conformance::{Progress, Report, Route, Selection};
-use bossage_runner::{AdapterInfo, AdapterSelector, Device};
+use bossage_runner::{AdapterInfo, AdapterSelector, Device, Machine};
 use bossage_shaders::Library;
 use bossage_translate::external::{self, Validator};
 use bossage_translate::{EmitOptions, Target, lint};
@@ -182,7 +182,7 @@ fn describe(info: &AdapterInfo) -> String {
 }
 
 /// The wall as planned; and what its relief adds to the same wall without it.
-fn pictures(device: &Device, planned: &Planned, library: &Library) -> Result<Vec<Shot>> {
+fn pictures(device: &dyn Machine, planned: &Planned, library: &Library) -> Result<Vec<Shot>> {
     let with = render::picture(device, &planned.scene, library)?;
     let without = render::picture(device, &technique::pinned(&planned.scene, "none")?, library)?;
     let difference = difference(&without, &with);
