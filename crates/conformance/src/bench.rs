@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use bossage_runner::Machine;
-use bossage_shaders::{AssembledShader, Library};
+use bossage_shaders::Library;
 
+use crate::module::Module;
 use crate::route::{Prepared, Route};
 
 /// An adapter and a route, with what has been prepared for them.
@@ -17,7 +18,7 @@ pub struct Bench<'a> {
     pub route: Route,
     /// The shaders.
     pub library: &'a Library,
-    prepared: Mutex<BTreeMap<String, Arc<Prepared>>>,
+    prepared: Mutex<BTreeMap<Module, Arc<Prepared>>>,
 }
 
 impl<'a> Bench<'a> {
@@ -32,22 +33,25 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// The module of that key, prepared once.
+    /// That module, prepared once. A case asks for none that [`Case::modules`](crate::case::Case::modules) does not name.
     ///
     /// # Errors
     /// What the library or the translator says.
-    pub fn module(
-        &self,
-        key: &str,
-        assemble: impl FnOnce(&Library) -> bossage_shaders::Result<AssembledShader>,
-    ) -> Result<Arc<Prepared>, String> {
+    pub fn module(&self, module: &Module) -> Result<Arc<Prepared>, String> {
         let mut prepared = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(found) = prepared.get(key) {
+        if let Some(found) = prepared.get(module) {
             return Ok(Arc::clone(found));
         }
-        let assembled = assemble(self.library).map_err(|error| error.to_string())?;
-        let module = Arc::new(self.route.prepare(&assembled)?);
-        prepared.insert(key.to_owned(), Arc::clone(&module));
-        Ok(module)
+        let assembled = module.assemble(self.library).map_err(|error| error.to_string())?;
+        let made = Arc::new(self.route.prepare(&assembled)?);
+        prepared.insert(*module, Arc::clone(&made));
+        Ok(made)
+    }
+
+    /// The modules that were asked for so far and could be prepared, sorted.
+    #[must_use]
+    pub fn asked(&self) -> Vec<Module> {
+        let prepared = self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
+        prepared.keys().copied().collect()
     }
 }

@@ -3,6 +3,7 @@
 use crate::bench::Bench;
 use crate::case_id::CaseId;
 use crate::compare::Comparison;
+use crate::module::Module;
 use crate::report::CaseResult;
 use crate::verdict::Verdict;
 
@@ -18,6 +19,12 @@ pub trait Case: Send + Sync {
     fn arguments(&self) -> Vec<String> {
         Vec::new()
     }
+
+    /// Every module that it asks a bench for.
+    ///
+    /// # Errors
+    /// When that depends on files, and they cannot be read.
+    fn modules(&self) -> Result<Vec<Module>, String>;
 
     /// Runs and judges it.
     fn run(&self, bench: &Bench<'_>) -> Outcome;

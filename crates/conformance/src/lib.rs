@@ -33,6 +33,7 @@ pub mod compare;
 pub mod environment;
 mod error;
 pub mod generate;
+pub mod module;
 pub mod oracle;
 pub mod report;
 pub mod route;
@@ -43,6 +44,7 @@ pub mod ulp;
 mod verdict;
 
 pub use error::Error;
+pub use module::Module;
 pub use report::{CaseResult, Report, Totals};
 pub use route::Route;
 pub use run::{Progress, Selection, Silent, run};

@@ -19,6 +19,7 @@ use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
 use crate::generate::random::stream;
+use crate::module::Module;
 use crate::tolerance;
 
 /// Elevation of h = 1 in UV units along u and v, for all fields here.
@@ -145,7 +146,7 @@ impl BakeCase {
 
     fn texels(&self, bench: &Bench<'_>) -> Result<Vec<[u8; 4]>, String> {
         let kernel = self.kernel;
-        let module = bench.module(kernel.entry(), |library| library.assemble_kernel(kernel))?;
+        let module = bench.module(&Module::Kernel(kernel))?;
         let texture = TextureData::r32f(self.field.width, self.field.height, &self.field.texels);
         let mut resources = Resources::default();
         resources
@@ -291,6 +292,10 @@ impl Case for BakeCase {
 
     fn basis(&self) -> Vec<&'static str> {
         vec!["twin on the CPU", "reference f64", "accuracy rules at the input"]
+    }
+
+    fn modules(&self) -> Result<Vec<Module>, String> {
+        Ok(vec![Module::Kernel(self.kernel)])
     }
 
     fn run(&self, bench: &Bench<'_>) -> Outcome {

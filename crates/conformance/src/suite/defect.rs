@@ -15,6 +15,7 @@ use crate::bench::Bench;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::Comparison;
+use crate::module::Module;
 use crate::oracle;
 use crate::verdict::Verdict;
 
@@ -331,7 +332,7 @@ impl DefectCase {
 
     fn outputs(&self, bench: &Bench<'_>) -> Result<Vec<f32>, String> {
         let probe = self.probe;
-        let module = bench.module(probe.function(), |library| library.assemble_probe(probe.id))?;
+        let module = bench.module(&Module::Probe(probe.id))?;
         let shader = module.shader(probe.entry)?;
         run_probe(
             bench.device,
@@ -396,6 +397,10 @@ impl Case for DefectCase {
             Evidence::Output => vec!["property at a witness"],
             Evidence::Rules => vec!["property at a witness", "accuracy rules at the input"],
         }
+    }
+
+    fn modules(&self) -> Result<Vec<Module>, String> {
+        Ok(vec![Module::Probe(self.probe.id)])
     }
 
     fn run(&self, bench: &Bench<'_>) -> Outcome {

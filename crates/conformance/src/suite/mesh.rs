@@ -18,6 +18,7 @@ use crate::bounded::vector::{Vec3 as Bounded3, add, normalize as bounded_normali
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
+use crate::module::Module;
 use crate::oracle::Args;
 use crate::tolerance;
 
@@ -162,7 +163,7 @@ impl MeshCase {
         output: (&str, usize),
         items: usize,
     ) -> Result<BTreeMap<String, Vec<u8>>, String> {
-        let module = bench.module(kernel.entry(), |library| library.assemble_kernel(kernel))?;
+        let module = bench.module(&Module::Kernel(kernel))?;
         let shader = module.shader(kernel.entry())?;
         let mut resources = Resources::default();
         for (name, bytes) in buffers.iter().filter(|(name, _)| shader.binding(name).is_some()) {
@@ -329,6 +330,10 @@ impl Case for MeshCase {
 
     fn basis(&self) -> Vec<&'static str> {
         crate::oracle::BASIS.to_vec()
+    }
+
+    fn modules(&self) -> Result<Vec<Module>, String> {
+        Ok(self.kernels().map(Module::Kernel).to_vec())
     }
 
     fn run(&self, bench: &Bench<'_>) -> Outcome {

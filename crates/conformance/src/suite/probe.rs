@@ -11,6 +11,7 @@ use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
 use crate::generate::{Inputs, control, edge, random};
+use crate::module::Module;
 use crate::oracle;
 use crate::tolerance::UNDECIDED_LIMIT;
 
@@ -128,7 +129,7 @@ impl ProbeCase {
         expected: &[Vec<Expected>],
     ) -> Result<Comparison, String> {
         let probe = self.probe;
-        let module = bench.module(probe.function(), |library| library.assemble_probe(probe.id))?;
+        let module = bench.module(&Module::Probe(probe.id))?;
         let shader = module.shader(probe.entry)?;
         let got = run_probe(
             bench.device,
@@ -185,6 +186,10 @@ impl Case for ProbeCase {
     fn arguments(&self) -> Vec<String> {
         let full = matches!(self.generator, Generator::Random { count: FULL, .. });
         full.then(|| "--full".to_owned()).into_iter().collect()
+    }
+
+    fn modules(&self) -> Result<Vec<Module>, String> {
+        Ok(vec![Module::Probe(self.probe.id)])
     }
 
     fn run(&self, bench: &Bench<'_>) -> Outcome {

@@ -10,18 +10,19 @@
 mod pixels;
 mod surface;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use bossage_scene::{Draw, Plan, Scene, draws, draws_with};
 
-use self::pixels::{Pixel, render};
+use self::pixels::{Pixel, modules, render};
 use crate::bench::Bench;
 use crate::bounded::{Bounded, Decision};
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
+use crate::module::Module;
 use crate::tolerance::UNDECIDED_LIMIT_FILTERED;
 
 /// Which shaders a case renders.
@@ -217,6 +218,19 @@ impl Case for SceneCase {
 
     fn arguments(&self) -> Vec<String> {
         vec!["--scene".to_owned(), self.path.display().to_string()]
+    }
+
+    fn modules(&self) -> Result<Vec<Module>, String> {
+        let (scene, plan) = self.scene()?;
+        let planned = draws(scene, plan);
+        let full = draws_with(scene, |material| plan.features(material).all_effects());
+        let drawn = match self.shaders {
+            Shaders::Planned => planned,
+            Shaders::AllEffects => full,
+            Shaders::Agreement => [planned, full].concat(),
+        };
+        let all = drawn.iter().flat_map(|draw| modules(&draw.features));
+        Ok(all.collect::<BTreeSet<_>>().into_iter().collect())
     }
 
     fn run(&self, bench: &Bench<'_>) -> Outcome {

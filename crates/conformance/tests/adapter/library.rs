@@ -1,7 +1,11 @@
 //! The library as it is: everything passes, the known defects show, nothing is skipped.
 
 use bossage_conformance::suite::scene::files_in;
-use bossage_conformance::{Selection, Verdict};
+use std::collections::BTreeSet;
+
+use bossage_conformance::bench::Bench;
+use bossage_conformance::{Module, Route, Selection, Verdict};
+use bossage_runner::{AdapterSelector, Device};
 use bossage_shaders::{Library, TECHNIQUES};
 
 use crate::support::{listed, report, root};
@@ -48,4 +52,46 @@ fn every_example_scene_conforms_as_planned_and_with_all_effects() {
     };
     assert!(report.is_ok(), "{}", listed(&report, Verdict::Fail));
     assert_eq!(report.totals().skip, 0, "{}", listed(&report, Verdict::Skip));
+}
+
+/// A kind of case that kept quiet about a module would escape whoever asks which cases a change reaches.
+#[test]
+fn cases_name_the_modules_that_they_ask_for() {
+    let library = Library::embedded().expect("the embedded library is whole");
+    let small = [
+        "/control",
+        "/defect",
+        "field=one",
+        "mesh=degenerate",
+        "scene=brick_wall",
+    ];
+    let selection = Selection {
+        scenes: vec![root().join("examples/brick_wall.toml")],
+        ..Selection::default()
+    };
+    // Says that it is skipped where there is no adapter.
+    let one = Selection {
+        filter: Some("dot3/hardened/control".to_owned()),
+        ..Selection::default()
+    };
+    if report("modules of cases", &one, &library).is_none() {
+        return;
+    }
+    let device = Device::open(&AdapterSelector::Any).expect("the adapter that was just there");
+    let mut kinds = BTreeSet::new();
+    let cases = selection.cases().expect("there are cases");
+    for case in cases
+        .iter()
+        .filter(|case| small.iter().any(|part| case.id().matches(part)))
+    {
+        let bench = Bench::new(&device, Route::Wgsl, &library);
+        case.run(&bench);
+        let named: BTreeSet<Module> = case.modules().expect("the files are there").into_iter().collect();
+        let asked: BTreeSet<Module> = bench.asked().into_iter().collect();
+        assert!(!asked.is_empty(), "{} asked for nothing", case.id());
+        let quiet: Vec<String> = asked.difference(&named).map(ToString::to_string).collect();
+        assert!(quiet.is_empty(), "{} does not name {quiet:?}", case.id());
+        kinds.insert(case.id().generator.clone());
+    }
+    assert!(kinds.len() >= 7, "{kinds:?}");
 }

@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use super::surface::{Maps, bounded, material};
 use crate::bench::Bench;
 use crate::case::with_causes;
+use crate::module::Module;
 use crate::tolerance::surface::{Fragment, Interpolants};
 
 /// The longer side of the rendered picture, in pixels: some thousands of pixels an object, from every angle that it has.
@@ -38,12 +39,7 @@ pub(super) struct Pixel {
 pub(super) fn render(bench: &Bench<'_>, draw: &Draw, size: [u32; 2]) -> Result<Vec<Pixel>, String> {
     let size = scaled(size);
     let picture = picture(bench, draw, &draw.features, Stage::Fragment, size, 1)?;
-    // Without the alpha test, so that pixels that should be cut out are known too.
-    let uncut = FeatureSet {
-        alpha: Alpha::Opaque,
-        ..draw.features
-    };
-    let capture = picture_of(bench, draw, &uncut, size)?;
+    let capture = picture_of(bench, draw, &uncut(&draw.features), size)?;
     let got = picture.into_iter().next().ok_or("the draw has no picture")?;
     let covered = capture[0].covered();
     let context = Context::new(draw);
@@ -51,6 +47,27 @@ pub(super) fn render(bench: &Bench<'_>, draw: &Draw, size: [u32; 2]) -> Result<V
     Ok(pixels
         .map(|at| context.pixel(at, size, got.pixels[at], &capture))
         .collect())
+}
+
+/// Without the alpha test, so that pixels that should be cut out are known too.
+fn uncut(features: &FeatureSet) -> FeatureSet {
+    FeatureSet {
+        alpha: Alpha::Opaque,
+        ..*features
+    }
+}
+
+/// What [`render`] asks the bench for.
+pub(super) fn modules(features: &FeatureSet) -> impl Iterator<Item = Module> {
+    let picture = stages(features, Stage::Fragment);
+    let capture = stages(&uncut(features), Stage::FragmentCapture);
+    picture.into_iter().chain(capture)
+}
+
+/// The vertex stage and the stage after it.
+fn stages(features: &FeatureSet, stage: Stage) -> [Module; 2] {
+    let features = *features;
+    [Stage::Vertex, stage].map(|stage| Module::Surface { features, stage })
 }
 
 /// The size with the same aspect whose longer side is [`LONGER_SIDE`].
@@ -76,11 +93,8 @@ fn picture(
     [width, height]: [u32; 2],
     targets: usize,
 ) -> Result<Vec<Picture>, String> {
-    let key = |stage: Stage| format!("{stage:?} {features:?}");
-    let vertex = bench.module(&key(Stage::Vertex), |library| {
-        library.assemble_surface(features, Stage::Vertex)
-    })?;
-    let fragment = bench.module(&key(stage), |library| library.assemble_surface(features, stage))?;
+    let [vertex, fragment] = stages(features, stage);
+    let (vertex, fragment) = (bench.module(&vertex)?, bench.module(&fragment)?);
     let (mesh, textures) = (mesh(draw), textures(draw));
     let mut resources = Resources {
         uniforms: draw.uniforms.clone(),
