@@ -8,8 +8,8 @@ use std::sync::Arc;
 
 use bossage_assets::EdgeMode;
 use bossage_runner::{
-    AddressMode, Blend, Clear, Code, Cull, Depth, Draw, Machine, Mesh, RenderJob, Resources, SamplerSettings,
-    Shader as Stage, TexelFormat, TextureData, TextureDimension,
+    AddressMode, Blend, Clear, Code, Cull, Depth, Draw, Machine, Mesh, RenderJob, RenderTarget, Resources,
+    SamplerSettings, Shader as Stage, TexelFormat, TextureData, TextureDimension,
 };
 use bossage_scene::{Plan, Scene, Texels, Texture};
 use bossage_shaders::Library;
@@ -36,13 +36,15 @@ pub(crate) fn draw(machine: &dyn Machine, scene: &Scene, plan: &Plan, library: &
         name: "picture",
         width: scene.camera.size[0],
         height: scene.camera.size[1],
-        targets: vec![Clear::Colour(BACKGROUND)],
+        targets: vec![RenderTarget::floats(Clear::Colour(BACKGROUND))],
         read_depth: false,
-        draws: draws
-            .iter()
-            .zip(&meshes)
-            .map(|(draw, mesh)| one(draw, mesh, &modules, &textures))
-            .collect::<Result<_>>()?,
+        passes: vec![
+            draws
+                .iter()
+                .zip(&meshes)
+                .map(|(draw, mesh)| one(draw, mesh, &modules, &textures))
+                .collect::<Result<_>>()?,
+        ],
     };
     let output = job.run(machine)?;
     let target = output.targets.into_iter().next().unwrap_or_default();

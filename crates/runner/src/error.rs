@@ -174,6 +174,16 @@ pub enum Error {
         /// What is wrong.
         problem: String,
     },
+    /// A render target can't hold what it should.
+    #[error("`{job}`: target {location}: {problem}")]
+    Target {
+        /// The job.
+        job: String,
+        /// The target's `@location`.
+        location: usize,
+        /// What is wrong.
+        problem: String,
+    },
     /// A size or count is impossible or beyond the adapter's limit.
     #[error("`{job}`: {what} is {given}, the limit is {limit}")]
     TooLarge {

@@ -6,7 +6,7 @@
 //!
 //! - [`run_probe`], [`ProbeJob`]: a function over an array of inputs;
 //! - [`ComputeJob`]: any dispatch;
-//! - [`RenderJob`]: meshes drawn to float targets;
+//! - [`RenderJob`]: meshes drawn to targets of floats or bytes, in one pass or several, replaced or blended;
 //! - [`time`]: how long a job takes.
 //!
 //! A [`Machine`] runs them: a [`Device`], or another implementation that needs no driver.
@@ -54,12 +54,15 @@ mod machine;
 mod mesh;
 mod passes;
 mod passthrough;
+mod picture;
 mod pipeline;
 mod probe;
 mod readback;
 mod render;
 mod resources;
 mod sentinel;
+mod surfaces;
+mod target;
 mod texture;
 mod timing;
 mod uniforms;
@@ -74,8 +77,10 @@ pub use error::{Error, HOW_TO_GET_AN_ADAPTER};
 pub use machine::{DispatchLimits, Machine};
 pub use mesh::{Attribute, Mesh};
 pub use probe::{INPUTS, OUTPUTS, ProbeJob, run_probe};
-pub use render::{Blend, Clear, Cull, Depth, Draw, Picture, RenderJob, RenderOutput};
+pub use picture::Picture;
+pub use render::{Cull, Depth, Draw, RenderJob, RenderOutput};
 pub use resources::{BufferData, Resources, slot};
 pub use sentinel::{SENTINEL, SENTINEL_BITS, is_unwritten, unwritten};
+pub use target::{Blend, Clear, RenderTarget, TargetFormat};
 pub use texture::{AddressMode, Filter, SamplerSettings, TexelFormat, TextureData, TextureDimension};
 pub use timing::{Clock, TimedJob, Timing, TimingOptions, time};

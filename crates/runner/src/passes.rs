@@ -1,4 +1,4 @@
-//! A render job on the device: targets, pipelines and buffers, ready to be drawn once or many times.
+//! A render job on the device: pipelines, buffers and surfaces, ready to be drawn once or many times.
 
 use bossage_translate::Stage;
 
@@ -8,20 +8,13 @@ use crate::device::Device;
 use crate::error::Error;
 use crate::layout::{self, Located};
 use crate::mesh::Mesh;
-use crate::pipeline::{self, COLOUR_FORMAT, DEPTH_FORMAT, RenderKey};
+use crate::picture::Picture;
+use crate::pipeline::{self, DEPTH_FORMAT, RenderKey};
 use crate::readback::PictureCopy;
-use crate::render::{Blend, Clear, Draw, Picture, RenderJob, RenderOutput};
-use crate::{sentinel, upload};
-
-/// Bytes of a pixel of a colour target.
-const PIXEL_BYTES: u32 = 16;
-
-/// A colour target.
-struct Target {
-    texture: wgpu::Texture,
-    view: wgpu::TextureView,
-    clear: Clear,
-}
+use crate::render::{Draw, RenderJob, RenderOutput};
+use crate::surfaces::Surfaces;
+use crate::target::{Blend, TargetFormat};
+use crate::upload;
 
 /// A draw, ready.
 struct PreparedDraw {
@@ -34,39 +27,32 @@ struct PreparedDraw {
 
 /// A job, ready.
 pub(crate) struct PreparedRender {
-    targets: Vec<Target>,
-    depth: wgpu::Texture,
-    depth_view: wgpu::TextureView,
-    draws: Vec<PreparedDraw>,
+    surfaces: Surfaces,
+    passes: Vec<Vec<PreparedDraw>>,
+}
+
+/// Where a device writes timestamps: when the first pass begins, and when the last ends.
+#[derive(Clone, Copy)]
+pub(crate) struct Stamps<'a> {
+    pub(crate) queries: &'a wgpu::QuerySet,
+    pub(crate) begin: Option<u32>,
+    pub(crate) end: Option<u32>,
 }
 
 impl RenderJob<'_> {
     pub(crate) fn prepare(&self, device: &Device) -> Result<PreparedRender, Error> {
-        self.check_limits(device)?;
-        let draws = self
-            .draws
-            .iter()
-            .map(|draw| draw.prepare(device, self))
-            .collect::<Result<_, Error>>()?;
-        device.scoped(self.name, || {
-            let targets = self
-                .targets
-                .iter()
-                .map(|clear| self.target(device, *clear))
-                .collect();
-            let depth = self.texture(device, DEPTH_FORMAT);
-            let depth_view = depth.create_view(&wgpu::TextureViewDescriptor::default());
-            Ok(PreparedRender {
-                targets,
-                depth,
-                depth_view,
-                draws,
-            })
-        })
+        self.check_targets(device)?;
+        let pass = |draws: &Vec<Draw<'_>>| draws.iter().map(|draw| draw.prepare(device, self)).collect();
+        let passes = self.passes.iter().map(pass).collect::<Result<_, Error>>()?;
+        let surfaces = device.scoped(self.name, || Ok(Surfaces::new(device, self)))?;
+        Ok(PreparedRender { surfaces, passes })
     }
 
-    fn check_limits(&self, device: &Device) -> Result<(), Error> {
+    fn check_targets(&self, device: &Device) -> Result<(), Error> {
         let limits = device.limits();
+        for (location, target) in self.targets.iter().enumerate() {
+            target.validate(self.name, location)?;
+        }
         let (shorter, longer) = (self.width.min(self.height), self.width.max(self.height));
         if shorter == 0 {
             let problem = format!("a picture of {} x {} pixels", self.width, self.height);
@@ -76,7 +62,7 @@ impl RenderJob<'_> {
             });
         }
         let targets = self.targets.len() as u64;
-        let bytes = targets * u64::from(PIXEL_BYTES);
+        let bytes: u64 = self.targets.iter().map(|target| target.format.pixel_cost()).sum();
         let side = u64::from(limits.max_texture_dimension_2d);
         device.within(self.name, "the picture's side", u64::from(longer), side)?;
         device.within(
@@ -93,44 +79,12 @@ impl RenderJob<'_> {
             most,
         )
     }
+}
 
-    fn texture(&self, device: &Device, format: wgpu::TextureFormat) -> wgpu::Texture {
-        device.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some(self.name),
-            size: wgpu::Extent3d {
-                width: self.width,
-                height: self.height,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                | wgpu::TextureUsages::COPY_SRC
-                | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        })
-    }
-
-    /// A target. The sentinel is copied in rather than cleared to, since a clear colour goes through a conversion that may
-    /// change the bits of a NaN.
-    fn target(&self, device: &Device, clear: Clear) -> Target {
-        let texture = self.texture(device, COLOUR_FORMAT);
-        if clear == Clear::Sentinel {
-            let row = self.width * PIXEL_BYTES;
-            let bytes = sentinel::fill(row as usize * self.height as usize);
-            let layout = wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(row),
-                rows_per_image: None,
-            };
-            device
-                .queue
-                .write_texture(texture.as_image_copy(), &bytes, layout, texture.size());
-        }
-        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        Target { texture, view, clear }
+impl RenderJob<'_> {
+    fn is_float(&self, location: usize) -> bool {
+        let format = self.targets.get(location).map(|target| target.format);
+        format == Some(TargetFormat::Rgba32Float)
     }
 }
 
@@ -139,7 +93,7 @@ impl Draw<'_> {
         expect_one_route(job.name, &self.vertex, &self.fragment)?;
         expect_stage(&self.vertex, Stage::Vertex)?;
         expect_stage(&self.fragment, Stage::Fragment)?;
-        if self.blend != Blend::Replace {
+        if self.blend != Blend::Replace && job.is_float(0) {
             device.require(
                 job.name,
                 wgpu::Features::FLOAT32_BLENDABLE,
@@ -157,7 +111,12 @@ impl Draw<'_> {
                 .iter()
                 .map(|input| (input.location, input.components))
                 .collect(),
-            written: self.written(job.targets.len())?,
+            targets: job
+                .targets
+                .iter()
+                .map(|target| target.format)
+                .zip(self.written(job.targets.len())?)
+                .collect(),
             cull: self.cull,
             blend: self.blend,
             depth: self.depth,
@@ -180,6 +139,10 @@ impl Draw<'_> {
                 return Err(layout::misfit(self.fragment.entry, &output.name, problem));
             };
             *target = true;
+        }
+        if self.blend != Blend::Replace && written.first() != Some(&true) {
+            let problem = "the draw is blended, but nothing goes to @location(0)".to_owned();
+            return Err(layout::misfit(self.fragment.entry, &self.fragment.entry.name, problem));
         }
         Ok(written)
     }
@@ -233,32 +196,15 @@ fn upload_draw(
 }
 
 impl PreparedRender {
-    /// Encodes one pass over all draws.
-    pub(crate) fn encode(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
-    ) {
-        let colours: Vec<_> = self
-            .targets
-            .iter()
-            .map(|target| Some(target.attachment()))
-            .collect();
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            color_attachments: &colours,
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.depth_view,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Store,
-                }),
-                stencil_ops: None,
-            }),
-            timestamp_writes,
-            ..wgpu::RenderPassDescriptor::default()
-        });
-        for draw in &self.draws {
-            draw.encode(&mut pass);
+    /// Encodes all passes; the first clears. A job without any still clears.
+    pub(crate) fn encode(&self, encoder: &mut wgpu::CommandEncoder, stamps: Option<Stamps<'_>>) {
+        let last = self.passes.len().saturating_sub(1);
+        for index in 0..=last {
+            let writes = stamps.and_then(|stamps| stamps.of_pass(index == 0, index == last));
+            let mut pass = self.surfaces.begin(encoder, index == 0, writes);
+            for draw in self.passes.get(index).into_iter().flatten() {
+                draw.encode(&mut pass);
+            }
         }
     }
 
@@ -268,56 +214,43 @@ impl PreparedRender {
                 .device
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             self.encode(&mut encoder, None);
-            let all = wgpu::TextureAspect::All;
-            let mut copy =
-                |texture, aspect, bytes| PictureCopy::encode(device, &mut encoder, texture, aspect, bytes);
-            let copies: Vec<_> = self
-                .targets
-                .iter()
-                .map(|target| copy(&target.texture, all, PIXEL_BYTES))
-                .collect();
+            let copies = self.surfaces.copy_targets(device, &mut encoder);
             let depth = job
                 .read_depth
-                .then(|| copy(&self.depth, wgpu::TextureAspect::DepthOnly, 4));
+                .then(|| self.surfaces.copy_depth(device, &mut encoder));
             let submission = device.queue.submit([encoder.finish()]);
-            let picture =
-                |copy: &PictureCopy| Ok(picture(job, copy.read(device, job.name, submission.clone())?));
+            let read = |copy: &PictureCopy| copy.read(device, job.name, submission.clone());
+            let picture = |(copy, format): (&PictureCopy, TargetFormat)| {
+                Ok(Picture {
+                    width: job.width,
+                    height: job.height,
+                    format,
+                    pixels: format.pixels(&read(copy)?),
+                })
+            };
+            let formats = job.targets.iter().map(|target| target.format);
             Ok(RenderOutput {
-                targets: copies.iter().map(picture).collect::<Result<_, Error>>()?,
-                depth: depth
-                    .map(|copy| copy.read(device, job.name, submission.clone()))
-                    .transpose()?,
+                targets: copies.iter().zip(formats).map(picture).collect::<Result<_, Error>>()?,
+                depth: depth.as_ref().map(read).transpose()?.map(|bytes| floats(&bytes)),
             })
         })
     }
 }
 
-fn picture(job: &RenderJob<'_>, floats: Vec<f32>) -> Picture {
-    Picture {
-        width: job.width,
-        height: job.height,
-        pixels: floats.as_chunks::<4>().0.to_vec(),
-    }
+fn floats(bytes: &[u8]) -> Vec<f32> {
+    let words = bytes.as_chunks::<4>().0;
+    words.iter().map(|word| f32::from_le_bytes(*word)).collect()
 }
 
-impl Target {
-    fn attachment(&self) -> wgpu::RenderPassColorAttachment<'_> {
-        let load = match self.clear {
-            Clear::Colour([r, g, b, a]) => {
-                let [r, g, b, a] = [r, g, b, a].map(f64::from);
-                wgpu::LoadOp::Clear(wgpu::Color { r, g, b, a })
-            }
-            Clear::Sentinel => wgpu::LoadOp::Load,
-        };
-        wgpu::RenderPassColorAttachment {
-            view: &self.view,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load,
-                store: wgpu::StoreOp::Store,
-            },
-        }
+impl<'a> Stamps<'a> {
+    fn of_pass(self, is_first: bool, is_last: bool) -> Option<wgpu::RenderPassTimestampWrites<'a>> {
+        let begin = self.begin.filter(|_| is_first);
+        let end = self.end.filter(|_| is_last);
+        (begin.is_some() || end.is_some()).then_some(wgpu::RenderPassTimestampWrites {
+            query_set: self.queries,
+            beginning_of_pass_write_index: begin,
+            end_of_pass_write_index: end,
+        })
     }
 }
 

@@ -6,12 +6,11 @@ use crate::cache::{Layout, ModuleKey, StageKey};
 use crate::code::{Code, Shader};
 use crate::device::Device;
 use crate::error::Error;
-use crate::render::{Blend, Cull, Depth};
+use crate::render::{Cull, Depth};
+use crate::target::{Blend, TargetFormat};
 
 /// The depth buffer's format.
 pub(crate) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// The colour targets' format.
-pub(crate) const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 /// Everything that a render pipeline depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -21,8 +20,8 @@ pub(crate) struct RenderKey {
     pub(crate) layout: wgpu::PipelineLayout,
     /// (location, components) of each attribute, which has a buffer of its own.
     pub(crate) attributes: Vec<(u32, u32)>,
-    /// For each target whether the fragment stage writes it.
-    pub(crate) written: Vec<bool>,
+    /// Each target's format, and whether the fragment stage writes it.
+    pub(crate) targets: Vec<(TargetFormat, bool)>,
     pub(crate) cull: Cull,
     pub(crate) blend: Blend,
     pub(crate) depth: Depth,
@@ -129,8 +128,8 @@ fn create_render(device: &Device, job: &str, key: &RenderKey) -> wgpu::RenderPip
         .map(|(stride, attributes)| buffer(stride, attributes))
         .collect();
     let targets: Vec<_> = (0..)
-        .zip(&key.written)
-        .map(|(index, written)| target(index, *written, key.blend))
+        .zip(&key.targets)
+        .map(|(index, (format, written))| target(index, *format, *written, key.blend))
         .collect();
     device
         .device
@@ -182,7 +181,12 @@ fn buffer(array_stride: u64, attributes: &[wgpu::VertexAttribute]) -> Option<wgp
     })
 }
 
-fn target(location: u32, written: bool, blend: Blend) -> Option<wgpu::ColorTargetState> {
+fn target(
+    location: u32,
+    format: TargetFormat,
+    written: bool,
+    blend: Blend,
+) -> Option<wgpu::ColorTargetState> {
     let write_mask = if written {
         wgpu::ColorWrites::ALL
     } else {
@@ -190,7 +194,7 @@ fn target(location: u32, written: bool, blend: Blend) -> Option<wgpu::ColorTarge
     };
     let blend = if location == 0 { blend_state(blend) } else { None };
     Some(wgpu::ColorTargetState {
-        format: COLOUR_FORMAT,
+        format: format.wgpu(),
         blend,
         write_mask,
     })
@@ -225,6 +229,7 @@ fn depth_state(depth: Depth) -> wgpu::DepthStencilState {
     let (writes, compare) = match depth {
         Depth::TestAndWrite => (true, wgpu::CompareFunction::Less),
         Depth::TestOnly => (false, wgpu::CompareFunction::LessEqual),
+        Depth::Equal => (false, wgpu::CompareFunction::Equal),
         Depth::Ignore => (false, wgpu::CompareFunction::Always),
     };
     wgpu::DepthStencilState {

@@ -142,18 +142,17 @@ impl PictureCopy {
         }
     }
 
-    /// The floats, row by row, once the copy was submitted.
+    /// The bytes, row by row without padding, once the copy was submitted.
     pub(crate) fn read(
         &self,
         device: &Device,
         job: &str,
         submission: wgpu::SubmissionIndex,
-    ) -> Result<Vec<f32>, Error> {
+    ) -> Result<Vec<u8>, Error> {
         let bytes = self.staging.read(device, job, submission)?;
         let rows = bytes
             .chunks(self.padded as usize)
             .map(|row| &row[..self.row_bytes as usize]);
-        let words = rows.flat_map(|row| row.as_chunks::<4>().0);
-        Ok(words.map(|word| f32::from_le_bytes(*word)).collect())
+        Ok(rows.collect::<Vec<_>>().concat())
     }
 }

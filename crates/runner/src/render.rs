@@ -1,8 +1,11 @@
-//! Offscreen rendering to float targets.
+//! Offscreen rendering to targets of floats or bytes.
 //!
-//! All draws of a job share the targets and one depth buffer. Clip space is WebGPU's on both routes (y up, depth 0 to 1):
-//! emit SPIR-V without a clip-space adjustment, as `EmitOptions` does unless told otherwise. wgpu gives Vulkan a viewport of
-//! negative height, which is what such modules expect.
+//! All passes of a job share the targets and one depth buffer: the first clears them, each later one goes on where the one
+//! before it ended. Within a pass draws meet the targets in their order, so one pass of two draws and two passes of one leave
+//! the same picture; what differs is what an adapter has to load and store between them.
+//!
+//! Clip space is WebGPU's on both routes (y up, depth 0 to 1): emit SPIR-V without a clip-space adjustment, as `EmitOptions`
+//! does unless told otherwise. wgpu gives Vulkan a viewport of negative height, which is what such modules expect.
 //!
 //! A target that is cleared to the [sentinel](crate::SENTINEL) tells which pixels a draw wrote: see
 //! [`Picture::covered`]. No multisampling.
@@ -11,16 +14,9 @@ use crate::code::Shader;
 use crate::error::Error;
 use crate::machine::Machine;
 use crate::mesh::Mesh;
+use crate::picture::Picture;
 use crate::resources::Resources;
-
-/// What a target holds before the first draw.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Clear {
-    /// A colour.
-    Colour([f32; 4]),
-    /// The sentinel in every component.
-    Sentinel,
-}
+use crate::target::{Blend, RenderTarget};
 
 /// Which side of triangles is left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -34,26 +30,17 @@ pub enum Cull {
     Front,
 }
 
-/// How a draw's colour meets what the target holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Blend {
-    /// It replaces it.
-    #[default]
-    Replace,
-    /// It is added.
-    Add,
-    /// It is multiplied.
-    Multiply,
-}
-
 /// How a draw uses the depth buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Depth {
     /// Nearer wins, and is written.
     #[default]
     TestAndWrite,
-    /// What is as near or nearer wins, and nothing is written: for a second pass over the same mesh.
+    /// What is as near or nearer wins, and nothing is written.
     TestOnly,
+    /// What is exactly as near wins, and nothing is written: for a second pass over the same mesh by the same vertex stage. Other
+    /// vertex stages may place a vertex a rounding away.
+    Equal,
     /// No test, nothing is written.
     Ignore,
 }
@@ -77,7 +64,7 @@ pub struct Draw<'a> {
     pub depth: Depth,
 }
 
-/// A picture to render: `targets.len()` pictures in rgba32float at once.
+/// A picture to render: `targets.len()` pictures at once.
 #[derive(Clone, Debug)]
 pub struct RenderJob<'a> {
     /// The name that errors use.
@@ -86,44 +73,13 @@ pub struct RenderJob<'a> {
     pub width: u32,
     /// In pixels.
     pub height: u32,
-    /// What the target of each `@location` holds before the first draw. A draw whose fragment stage lacks a location leaves
-    /// that target alone; an output beyond the last target is an error.
-    pub targets: Vec<Clear>,
+    /// The target of each `@location`. A draw whose fragment stage lacks a location leaves that target alone; an output beyond
+    /// the last target is an error.
+    pub targets: Vec<RenderTarget>,
     /// Whether the depth buffer is read back as well.
     pub read_depth: bool,
-    /// Drawn in this order.
-    pub draws: Vec<Draw<'a>>,
-}
-
-/// One target's pixels, row 0 at the top.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Picture {
-    /// In pixels.
-    pub width: u32,
-    /// In pixels.
-    pub height: u32,
-    /// The pixels.
-    pub pixels: Vec<[f32; 4]>,
-}
-
-impl Picture {
-    /// The pixel at (x, y) from the top left.
-    #[must_use]
-    pub fn pixel(&self, x: u32, y: u32) -> Option<[f32; 4]> {
-        if x >= self.width || y >= self.height {
-            return None;
-        }
-        self.pixels
-            .get(y as usize * self.width as usize + x as usize)
-            .copied()
-    }
-
-    /// For each pixel of a target that was cleared to the sentinel: whether a draw wrote it.
-    #[must_use]
-    pub fn covered(&self) -> Vec<bool> {
-        let is_written = |pixel: &[f32; 4]| !pixel.iter().all(|value| crate::is_unwritten(*value));
-        self.pixels.iter().map(is_written).collect()
-    }
+    /// The draws of each pass, all in this order. Without any pass the targets are cleared.
+    pub passes: Vec<Vec<Draw<'a>>>,
 }
 
 /// What a render job leaves.

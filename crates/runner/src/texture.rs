@@ -9,6 +9,8 @@ use crate::error::Error;
 pub enum TexelFormat {
     /// Four bytes, each read as byte / 255.
     Rgba8Unorm,
+    /// Four 16-bit integers, each read as integer / 65535, which not every device has.
+    Rgba16Unorm,
     /// Four floats.
     Rgba32Float,
     /// One float.
@@ -21,6 +23,7 @@ impl TexelFormat {
     pub fn texel_bytes(self) -> usize {
         match self {
             Self::Rgba8Unorm | Self::R32Float => 4,
+            Self::Rgba16Unorm => 8,
             Self::Rgba32Float => 16,
         }
     }
@@ -28,12 +31,16 @@ impl TexelFormat {
     /// Whether its components are 32-bit floats, which not every device filters.
     #[must_use]
     pub fn is_float(self) -> bool {
-        self != Self::Rgba8Unorm
+        match self {
+            Self::Rgba32Float | Self::R32Float => true,
+            Self::Rgba8Unorm | Self::Rgba16Unorm => false,
+        }
     }
 
     pub(crate) fn wgpu(self) -> wgpu::TextureFormat {
         match self {
             Self::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+            Self::Rgba16Unorm => wgpu::TextureFormat::Rgba16Unorm,
             Self::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
             Self::R32Float => wgpu::TextureFormat::R32Float,
         }
@@ -59,6 +66,9 @@ impl TextureDimension {
         }
     }
 }
+
+/// The layers of a cube, as messages call them.
+const FACES: [&str; 6] = ["+x", "−x", "+y", "−y", "+z", "−z"];
 
 /// A texture with its mip chain.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,6 +113,61 @@ impl TextureData {
     #[must_use]
     pub fn r32f(width: u32, height: u32, texels: &[f32]) -> Self {
         Self::plane(width, height, TexelFormat::R32Float, bytemuck::cast_slice(texels))
+    }
+
+    /// A cube of one level: six square faces of this side, +x, −x, +y, −y, +z, −z, rows from the top (t = 0) on, tightly packed.
+    ///
+    /// # Errors
+    /// [`Error::Texture`] for another number of faces, and for a face of another size, naming it.
+    pub fn cube<T: bytemuck::NoUninit, F: AsRef<[T]>>(
+        name: &str,
+        side: u32,
+        format: TexelFormat,
+        faces: &[F],
+    ) -> Result<Self, Error> {
+        Self {
+            width: side,
+            height: side,
+            format,
+            dimension: TextureDimension::Cube,
+            levels: Vec::new(),
+        }
+        .with_cube_level(name, faces)
+    }
+
+    /// Adds the next smaller level of a cube, in the order of [`Self::cube`].
+    ///
+    /// # Errors
+    /// As [`Self::cube`].
+    pub fn with_cube_level<T: bytemuck::NoUninit, F: AsRef<[T]>>(
+        mut self,
+        name: &str,
+        faces: &[F],
+    ) -> Result<Self, Error> {
+        let level = self.levels.len() as u32;
+        let side = self.level_size(level).0 as usize;
+        let expected = side * side * self.format.texel_bytes();
+        let wrong = |problem: String| Error::Texture {
+            name: name.to_owned(),
+            problem: format!("level {level}: {problem}"),
+        };
+        if faces.len() != FACES.len() {
+            let (order, given) = (FACES.join(", "), faces.len());
+            return Err(wrong(format!("a cube has six faces ({order}); {given} are given")));
+        }
+        let mut bytes = Vec::with_capacity(6 * expected);
+        for (face, texels) in FACES.iter().zip(faces) {
+            let texels: &[u8] = bytemuck::cast_slice(texels.as_ref());
+            if texels.len() != expected {
+                let given = texels.len();
+                return Err(wrong(format!(
+                    "face {face} has {given} bytes; {side} x {side} texels are {expected}"
+                )));
+            }
+            bytes.extend_from_slice(texels);
+        }
+        self.levels.push(bytes);
+        Ok(self)
     }
 
     fn plane(width: u32, height: u32, format: TexelFormat, bytes: &[u8]) -> Self {

@@ -12,7 +12,7 @@ use std::time::Instant;
 use crate::compute::{ComputeJob, PreparedCompute};
 use crate::device::Device;
 use crate::error::Error;
-use crate::passes::PreparedRender;
+use crate::passes::{PreparedRender, Stamps};
 use crate::readback;
 use crate::render::RenderJob;
 
@@ -172,13 +172,10 @@ impl<'a> Prepared<'a> {
                 job.encode(encoder, repetitions, stamps);
             }
             Work::Render(job) => (0..repetitions).for_each(|pass| {
-                let begins = (pass == 0).then_some(0);
-                let ends = (pass + 1 == repetitions).then_some(1);
-                let queries = queries.filter(|_| begins.is_some() || ends.is_some());
-                let stamps = queries.map(|query_set| wgpu::RenderPassTimestampWrites {
-                    query_set,
-                    beginning_of_pass_write_index: begins,
-                    end_of_pass_write_index: ends,
+                let stamps = queries.map(|queries| Stamps {
+                    queries,
+                    begin: (pass == 0).then_some(0),
+                    end: (pass + 1 == repetitions).then_some(1),
                 });
                 job.encode(encoder, stamps);
             }),

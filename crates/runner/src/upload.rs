@@ -2,7 +2,7 @@
 
 use crate::device::Device;
 use crate::error::Error;
-use crate::texture::{Filter, SamplerSettings, TextureData, TextureDimension};
+use crate::texture::{Filter, SamplerSettings, TexelFormat, TextureData, TextureDimension};
 
 /// A buffer with these bytes (a multiple of four), which can be read back.
 pub(crate) fn buffer(device: &Device, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
@@ -24,6 +24,10 @@ pub(crate) fn texture(
     data: &TextureData,
 ) -> Result<wgpu::TextureView, Error> {
     data.validate(name)?;
+    if data.format == TexelFormat::Rgba16Unorm {
+        let feature = wgpu::Features::TEXTURE_FORMAT_16BIT_NORM;
+        device.require(job, feature, "textures of 16-bit normalised integers")?;
+    }
     let limit = u64::from(device.limits().max_texture_dimension_2d);
     device.within(
         job,

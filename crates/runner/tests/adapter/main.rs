@@ -3,8 +3,11 @@
 //! Without an adapter these tests are skipped, each saying so with a running number; where `BOSSAGE_REQUIRE` lists
 //! `lavapipe`, they fail instead.
 
+mod blending;
 mod compute;
+mod cubes;
 mod errors;
+mod flat;
 mod render;
 mod routes;
 mod support;

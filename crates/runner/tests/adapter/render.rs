@@ -1,78 +1,15 @@
-//! Rendering: exact coverage, orientation, interpolation, depth, culling, blending, samplers.
+//! Rendering: exact coverage, orientation, interpolation, depth, culling, samplers.
 //!
 //! Sizes, positions and values are dyadic: edge functions, plane equations and their products are exact in f32, and w = 1,
 //! so pictures are compared without tolerance.
 
 use bossage_runner::{
-    AddressMode, Blend, Clear, Cull, Depth, Draw, Error, Filter, Mesh, Picture, RenderJob, RenderOutput,
-    Resources, SamplerSettings, Shader, TextureData, is_unwritten,
+    AddressMode, Clear, Cull, Error, Filter, Picture, RenderJob, RenderOutput, RenderTarget, SamplerSettings,
+    TextureData, is_unwritten,
 };
 
-use crate::support::{Compiled, compile, device};
-
-const SURFACE: &str = "
-struct Varyings { @builtin(position) clip: vec4f, @location(0) uv: vec2f }
-@vertex fn vertex(@location(0) position: vec3f, @location(2) uv: vec2f) -> Varyings {
-    return Varyings(vec4f(position, 1.0), uv);
-}
-struct Targets { @location(0) colour: vec4f, @location(2) uv: vec4f }
-@group(0) @binding(0) var<uniform> colour: vec4f;
-@fragment fn fragment(in: Varyings) -> Targets { return Targets(colour, vec4f(in.uv, 0.0, 1.0)); }
-@fragment fn holes(in: Varyings) -> @location(0) vec4f {
-    if (u32(in.clip.x) + u32(in.clip.y)) % 2u == 0u { discard; }
-    return colour;
-}
-@group(1) @binding(0) var picture: texture_2d<f32>;
-@group(1) @binding(1) var picture_sampler: sampler;
-@fragment fn textured(in: Varyings) -> @location(0) vec4f { return textureSample(picture, picture_sampler, in.uv); }
-";
-
-const SIZE: u32 = 8;
-
-/// A rectangle at depth z, with uv = (0, 0) at its top left and (1, 1) at its bottom right, counter-clockwise.
-fn rectangle([left, bottom, right, top]: [f32; 4], z: f32) -> Mesh {
-    let positions = [
-        [left, bottom, z],
-        [right, bottom, z],
-        [right, top, z],
-        [left, top, z],
-    ];
-    Mesh::new(vec![0, 1, 2, 0, 2, 3])
-        .with("position", &positions)
-        .with("uv", &[[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]])
-}
-
-const WHOLE: [f32; 4] = [-1.0, -1.0, 1.0, 1.0];
-
-fn draw<'a>(vertex: Shader<'a>, fragment: Shader<'a>, mesh: &'a Mesh, colour: [f32; 4]) -> Draw<'a> {
-    let mut resources = Resources::default();
-    resources.uniforms.insert("colour".into(), colour.to_vec());
-    let (cull, blend, depth) = (Cull::None, Blend::Replace, Depth::TestAndWrite);
-    Draw {
-        vertex,
-        fragment,
-        mesh,
-        resources,
-        cull,
-        blend,
-        depth,
-    }
-}
-
-fn plain<'a>(surface: &'a Compiled, mesh: &'a Mesh, colour: [f32; 4]) -> Draw<'a> {
-    draw(surface.wgsl("vertex"), surface.wgsl("fragment"), mesh, colour)
-}
-
-fn job(draws: Vec<Draw<'_>>) -> RenderJob<'_> {
-    RenderJob {
-        name: "picture",
-        width: SIZE,
-        height: SIZE,
-        targets: vec![Clear::Sentinel; 3],
-        read_depth: true,
-        draws,
-    }
-}
+use crate::flat::{SIZE, SURFACE, WHOLE, draw, job, plain, rectangle};
+use crate::support::{compile, device};
 
 /// Which pixels a draw wrote, as text.
 fn coverage(picture: &Picture) -> Vec<String> {
@@ -185,7 +122,7 @@ fn culling_leaves_out_the_side_it_names() {
     let surface = compile(SURFACE);
     let mesh = rectangle(WHOLE, 0.5);
     let pixels = |cull: Cull| {
-        let draw = Draw {
+        let draw = bossage_runner::Draw {
             cull,
             ..plain(&surface, &mesh, [1.0; 4])
         };
@@ -203,41 +140,13 @@ fn culling_leaves_out_the_side_it_names() {
 }
 
 #[test]
-fn a_second_pass_multiplies_each_pixel_once() {
-    let Some(device) = device("a_second_pass_multiplies_each_pixel_once") else {
-        return;
-    };
-    let surface = compile(SURFACE);
-    let mesh = rectangle(WHOLE, 0.5);
-    let first = plain(&surface, &mesh, [0.5, 0.25, 2.0, 1.0]);
-    let second = |blend: Blend| Draw {
-        blend,
-        depth: Depth::TestOnly,
-        ..plain(&surface, &mesh, [0.5, 8.0, 4.0, 1.0])
-    };
-    let run = |blend: Blend| job(vec![first.clone(), second(blend)]).run(device).unwrap();
-    assert!(
-        run(Blend::Multiply).targets[0]
-            .pixels
-            .iter()
-            .all(|pixel| *pixel == [0.25, 2.0, 8.0, 1.0])
-    );
-    assert!(
-        run(Blend::Add).targets[0]
-            .pixels
-            .iter()
-            .all(|pixel| *pixel == [1.0, 8.25, 6.0, 2.0])
-    );
-}
-
-#[test]
 fn the_background_keeps_its_colour() {
     let Some(device) = device("the_background_keeps_its_colour") else {
         return;
     };
     let background = [0.125, 0.25, 0.5, 1.0];
     let job = RenderJob {
-        targets: vec![Clear::Colour(background)],
+        targets: vec![RenderTarget::floats(Clear::Colour(background))],
         ..job(Vec::new())
     };
     let output = job.run(device).unwrap();
@@ -344,7 +253,7 @@ fn jobs_beyond_the_limits_are_refused() {
     };
     assert!(matches!(empty.run(device), Err(Error::Texture { .. })));
     let few = RenderJob {
-        targets: vec![Clear::Sentinel; 2],
+        targets: vec![RenderTarget::floats(Clear::Sentinel); 2],
         ..job(draws.clone())
     };
     assert!(
@@ -352,7 +261,7 @@ fn jobs_beyond_the_limits_are_refused() {
         "location 2 has no target"
     );
     let many = RenderJob {
-        targets: vec![Clear::Sentinel; 99],
+        targets: vec![RenderTarget::floats(Clear::Sentinel); 99],
         ..job(draws)
     };
     assert!(matches!(many.run(device), Err(Error::TooLarge { .. })));

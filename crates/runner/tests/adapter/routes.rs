@@ -4,7 +4,7 @@
 //! in range, and in the way to the driver. No tolerance is needed.
 
 use bossage_runner::{
-    Blend, Clear, Cull, Depth, Device, Draw, Error, Mesh, RenderJob, RenderOutput, Resources,
+    Blend, Clear, Cull, Depth, Device, Draw, Error, Mesh, RenderJob, RenderOutput, RenderTarget, Resources,
     SamplerSettings, Shader, TextureData,
 };
 use bossage_translate::EmitOptions;
@@ -98,14 +98,14 @@ fn try_render(
         blend,
         depth,
     };
-    let targets = vec![Clear::Sentinel; 2];
+    let targets = vec![RenderTarget::floats(Clear::Sentinel); 2];
     let job = RenderJob {
         name: "route",
         width: 50,
         height: 30,
         targets,
         read_depth: true,
-        draws: vec![draw],
+        passes: vec![vec![draw]],
     };
     job.run(device)
 }

@@ -3,8 +3,8 @@
 use bossage_assets::EdgeMode;
 use bossage_reference::surface::{Fragment as Truth, shade};
 use bossage_runner::{
-    AddressMode, Clear, Cull, Draw as RunnerDraw, Mesh, Picture, RenderJob, Resources, SamplerSettings,
-    TextureData, is_unwritten,
+    AddressMode, Clear, Cull, Draw as RunnerDraw, Mesh, Picture, RenderJob, RenderTarget, Resources,
+    SamplerSettings, TextureData, is_unwritten,
 };
 use bossage_scene::{Draw, Texels, Texture};
 use bossage_shaders::{Alpha, FeatureSet, Stage};
@@ -126,14 +126,14 @@ fn picture(
         blend: Default::default(),
         depth: Default::default(),
     };
-    let targets = vec![Clear::Sentinel; targets];
+    let targets = vec![RenderTarget::floats(Clear::Sentinel); targets];
     let job = RenderJob {
         name: &draw.object,
         width,
         height,
         targets,
         read_depth: false,
-        draws: vec![runner_draw],
+        passes: vec![vec![runner_draw]],
     };
     Ok(job
         .run(bench.device)
