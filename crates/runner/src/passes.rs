@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::layout::{self, Located};
 use crate::mesh::Mesh;
 use crate::picture::Picture;
-use crate::pipeline::{self, DEPTH_FORMAT, RenderKey};
+use crate::pipeline::{self, RenderKey};
 use crate::readback::PictureCopy;
 use crate::render::{Draw, RenderJob, RenderOutput};
 use crate::surfaces::Surfaces;
@@ -142,7 +142,11 @@ impl Draw<'_> {
         }
         if self.blend != Blend::Replace && written.first() != Some(&true) {
             let problem = "the draw is blended, but nothing goes to @location(0)".to_owned();
-            return Err(layout::misfit(self.fragment.entry, &self.fragment.entry.name, problem));
+            return Err(layout::misfit(
+                self.fragment.entry,
+                &self.fragment.entry.name,
+                problem,
+            ));
         }
         Ok(written)
     }
@@ -230,7 +234,11 @@ impl PreparedRender {
             };
             let formats = job.targets.iter().map(|target| target.format);
             Ok(RenderOutput {
-                targets: copies.iter().zip(formats).map(picture).collect::<Result<_, Error>>()?,
+                targets: copies
+                    .iter()
+                    .zip(formats)
+                    .map(picture)
+                    .collect::<Result<_, Error>>()?,
                 depth: depth.as_ref().map(read).transpose()?.map(|bytes| floats(&bytes)),
             })
         })

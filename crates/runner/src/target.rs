@@ -150,10 +150,7 @@ mod tests {
             .iter()
             .flat_map(|value| value.to_le_bytes())
             .collect();
-        assert_eq!(
-            TargetFormat::Rgba32Float.pixels(&floats),
-            [[1.0, -2.0, 0.5, 4.0]]
-        );
+        assert_eq!(TargetFormat::Rgba32Float.pixels(&floats), [[1.0, -2.0, 0.5, 4.0]]);
     }
 
     #[test]
@@ -170,6 +167,10 @@ mod tests {
         };
         assert!(sentinel.validate("job", 0).is_err());
         assert!(RenderTarget::floats(Clear::Sentinel).validate("job", 0).is_ok());
-        assert!(RenderTarget::floats(Clear::Colour([f32::NAN; 4])).validate("job", 0).is_ok());
+        assert!(
+            RenderTarget::floats(Clear::Colour([f32::NAN; 4]))
+                .validate("job", 0)
+                .is_ok()
+        );
     }
 }

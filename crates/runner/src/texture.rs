@@ -153,7 +153,9 @@ impl TextureData {
         };
         if faces.len() != FACES.len() {
             let (order, given) = (FACES.join(", "), faces.len());
-            return Err(wrong(format!("a cube has six faces ({order}); {given} are given")));
+            return Err(wrong(format!(
+                "a cube has six faces ({order}); {given} are given"
+            )));
         }
         let mut bytes = Vec::with_capacity(6 * expected);
         for (face, texels) in FACES.iter().zip(faces) {

@@ -1,10 +1,11 @@
 //! Several draws into one target: blending, targets of bytes, the depth test of a second pass, passes in their order.
 //!
-//! Every answer is known on paper. Products of two bytes are never half-way between two bytes: a·b/255 = k + ½ would make an
-//! odd number even. So the correctly rounded byte is the only right one.
+//! Every answer is known on paper. A product of bytes may be either byte around a·b/255, and must be the byte itself where it is
+//! one: an adapter need not round to nearest. lavapipe takes (a·b + ⌊a·b/256⌋ + 128)/256, so that 229·152 = 136.502·255 is 136.
 
 use bossage_runner::{
-    Blend, Clear, Depth, Draw, Error, Mesh, Picture, RenderJob, RenderOutput, RenderTarget, Resources, is_unwritten,
+    Blend, Clear, Depth, Draw, Error, Mesh, Picture, RenderJob, RenderOutput, RenderTarget, Resources,
+    is_unwritten,
 };
 
 use crate::flat::{SURFACE, WHOLE, draw, job, plain, rectangle};
@@ -45,7 +46,9 @@ fn codes(codes: [u8; 4]) -> [f32; 4] {
 #[test]
 fn floats_are_multiplied_added_and_replaced_exactly() {
     let run = |blend| blended(FLOATS, [0.5, 0.25, 2.0, 1.0], [0.5, 8.0, 4.0, 1.0], blend);
-    let Some(product) = run(Blend::Multiply) else { return };
+    let Some(product) = run(Blend::Multiply) else {
+        return;
+    };
     assert_eq!(product.pixels, [[0.25, 2.0, 8.0, 1.0]; 64]);
     assert_eq!(run(Blend::Add).unwrap().pixels, [[1.0, 8.25, 6.0, 2.0]; 64]);
     assert_eq!(run(Blend::Replace).unwrap().pixels, [[0.5, 8.0, 4.0, 1.0]; 64]);
@@ -54,8 +57,17 @@ fn floats_are_multiplied_added_and_replaced_exactly() {
 
 #[test]
 fn bytes_are_multiplied_added_and_replaced_exactly() {
-    let run = |blend| blended(bytes(), codes([255, 200, 100, 3]), codes([7, 100, 200, 254]), blend);
-    let Some(product) = run(Blend::Multiply) else { return };
+    let run = |blend| {
+        blended(
+            bytes(),
+            codes([255, 200, 100, 3]),
+            codes([7, 100, 200, 254]),
+            blend,
+        )
+    };
+    let Some(product) = run(Blend::Multiply) else {
+        return;
+    };
     // 200·100/255 = 78.4; 3·254/255 = 2.99.
     assert_eq!(product.codes().unwrap(), [[7, 78, 78, 3]; 64]);
     // Sums beyond 255 are clamped.
@@ -67,7 +79,12 @@ fn bytes_are_multiplied_added_and_replaced_exactly() {
 
 #[test]
 fn small_sums_of_bytes_are_exact() {
-    let sum = blended(bytes(), codes([1, 2, 100, 0]), codes([3, 0, 100, 255]), Blend::Add);
+    let sum = blended(
+        bytes(),
+        codes([1, 2, 100, 0]),
+        codes([3, 0, 100, 255]),
+        Blend::Add,
+    );
     let Some(sum) = sum else { return };
     assert_eq!(sum.codes().unwrap(), [[4, 2, 200, 255]; 64]);
 }
@@ -95,15 +112,13 @@ const PAIRS: &str = "
 ";
 
 #[test]
-fn all_products_of_two_bytes_are_correctly_rounded_on_both_routes() {
-    let Some(device) = device("all_products_of_two_bytes_are_correctly_rounded_on_both_routes") else {
+fn all_products_of_two_bytes_are_one_of_the_bytes_around_them_on_both_routes() {
+    let Some(device) = device("all_products_of_two_bytes_are_one_of_the_bytes_around_them_on_both_routes")
+    else {
         return;
     };
     let pairs = compile(PAIRS);
     let mesh = rectangle(WHOLE, 0.5);
-    let products: Vec<[u8; 4]> = (0..256_u32 * 256)
-        .map(|at| [((at % 256) * (at / 256) * 2 + 255) / 510; 4].map(|product| product as u8))
-        .collect();
     let picked: [for<'a> fn(&'a Compiled, &str) -> bossage_runner::Shader<'a>; 2] =
         [Compiled::wgsl, Compiled::spirv];
     for stage in picked {
@@ -118,11 +133,18 @@ fn all_products_of_two_bytes_are_correctly_rounded_on_both_routes() {
             height: 256,
             targets: vec![bytes()],
             read_depth: false,
-            passes: vec![vec![one("column", Blend::Replace)], vec![one("row", Blend::Multiply)]],
+            passes: vec![
+                vec![one("column", Blend::Replace)],
+                vec![one("row", Blend::Multiply)],
+            ],
         };
         let found = job.run(device).unwrap().targets[0].codes().unwrap();
-        let wrong = (0..products.len()).find(|at| found[*at] != products[*at]);
-        assert_eq!(wrong.map(|at| (at, found[at], products[at])), None);
+        let wrong = found.iter().enumerate().find(|(at, pixel)| {
+            let product = at % 256 * (at / 256);
+            let around = product / 255..=product.div_ceil(255);
+            !pixel.iter().all(|code| around.contains(&usize::from(*code)))
+        });
+        assert_eq!(wrong, None);
     }
 }
 
@@ -228,8 +250,8 @@ fn bytes_and_floats_stand_beside_each_other() {
         return;
     };
     let surface = compile(SURFACE);
-    // Columns 2 to 4, rows 0 and 1.
-    let mesh = rectangle([-0.5, 0.5, 0.25, 1.0], 0.5);
+    // Columns 2 to 5, rows 0 and 1.
+    let mesh = rectangle([-0.5, 0.5, 0.5, 1.0], 0.5);
     let mut job = job(vec![
         plain(&surface, &mesh, codes([200, 10, 0, 255])),
         Draw {
@@ -241,14 +263,14 @@ fn bytes_and_floats_stand_beside_each_other() {
     job.targets[0] = RenderTarget::bytes(codes([1, 2, 3, 4]));
     let output = job.run(device).unwrap();
     let covered = output.targets[2].covered();
-    assert_eq!(covered.iter().filter(|covered| **covered).count(), 6);
+    assert_eq!(covered.iter().filter(|covered| **covered).count(), 8);
     let found = output.targets[0].codes().unwrap();
     for (at, covered) in covered.iter().enumerate() {
         let expected = if *covered { [78, 10, 0, 51] } else { [1, 2, 3, 4] };
         assert_eq!(found[at], expected, "pixel {at}");
     }
     // Only location 0 is blended: the uv of the second draw replaces that of the first.
-    assert_eq!(output.targets[2].pixel(2, 0), Some([0.5 / 3.0, 0.25, 0.0, 1.0]));
+    assert_eq!(output.targets[2].pixel(2, 0), Some([0.125, 0.25, 0.0, 1.0]));
 }
 
 #[test]

@@ -51,7 +51,8 @@ fn face(face: usize, level: usize, side: usize) -> Vec<f32> {
 
 /// A cube of these sides, each texel its number.
 fn numbered(sides: &[usize]) -> TextureData {
-    let faces = |level: usize| -> Vec<Vec<f32>> { (0..6).map(|index| face(index, level, sides[level])).collect() };
+    let faces =
+        |level: usize| -> Vec<Vec<f32>> { (0..6).map(|index| face(index, level, sides[level])).collect() };
     let base = TextureData::cube("sky", sides[0] as u32, TexelFormat::R32Float, &faces(0)).unwrap();
     (1..sides.len()).fold(base, |cube, level| {
         cube.with_cube_level("sky", &faces(level)).unwrap()
@@ -118,14 +119,26 @@ fn every_texel_of_every_face_and_level_is_in_its_place() {
     }
     for shader in compiled.both("look") {
         let route = shader.code.route();
-        assert_eq!(look(device, shader, &sky, NEAREST, &at).unwrap(), expected, "{route}");
+        assert_eq!(
+            look(device, shader, &sky, NEAREST, &at).unwrap(),
+            expected,
+            "{route}"
+        );
         // At texel centres a linear filter gives the texel as well.
-        assert_eq!(look(device, shader, &sky, LINEAR, &at).unwrap(), expected, "{route}");
+        assert_eq!(
+            look(device, shader, &sky, LINEAR, &at).unwrap(),
+            expected,
+            "{route}"
+        );
         // Two faces swapped are seen.
         let mut swapped = sky.clone();
         let face_bytes = swapped.levels[0].len() / 6;
         swapped.levels[0].rotate_left(face_bytes);
-        assert_ne!(look(device, shader, &swapped, NEAREST, &at).unwrap(), expected, "{route}");
+        assert_ne!(
+            look(device, shader, &swapped, NEAREST, &at).unwrap(),
+            expected,
+            "{route}"
+        );
     }
 }
 
@@ -159,7 +172,10 @@ fn each_format_is_read_in_its_own_steps() {
         return;
     };
     let compiled = compile(LOOK);
-    let at: Vec<[f32; 4]> = (0..6).map(|index| direction(index, 0, 0, 1)).map(|[x, y, z]| [x, y, z, 0.0]).collect();
+    let at: Vec<[f32; 4]> = (0..6)
+        .map(|index| direction(index, 0, 0, 1))
+        .map(|[x, y, z]| [x, y, z, 0.0])
+        .collect();
     let codes = [0_u16, 65535, 1, 12345, 32768, 40000];
     let sixteen = single(TexelFormat::Rgba16Unorm, codes.map(|code| [code; 4]));
     let eight = single(TexelFormat::Rgba8Unorm, codes.map(|code| [(code / 257) as u8; 4]));
@@ -185,7 +201,9 @@ fn each_format_is_read_in_its_own_steps() {
 #[test]
 fn cubes_that_do_not_fit_are_refused() {
     let faces = |count: usize, last: usize| -> Vec<Vec<f32>> {
-        (0..count).map(|index| vec![0.0; if index + 1 == count { last } else { 4 }]).collect()
+        (0..count)
+            .map(|index| vec![0.0; if index + 1 == count { last } else { 4 }])
+            .collect()
     };
     let cube = |faces: &[Vec<f32>]| TextureData::cube("sky", 2, TexelFormat::R32Float, faces);
     assert!(cube(&faces(6, 4)).is_ok());

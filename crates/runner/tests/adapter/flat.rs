@@ -1,8 +1,6 @@
 //! Flat surfaces to draw: a mesh of one rectangle, shaders that give one colour, and jobs of eight pixels squared.
 
-use bossage_runner::{
-    Blend, Clear, Cull, Depth, Draw, Mesh, RenderJob, RenderTarget, Resources, Shader,
-};
+use bossage_runner::{Blend, Clear, Cull, Depth, Draw, Mesh, RenderJob, RenderTarget, Resources, Shader};
 
 use crate::support::Compiled;
 
@@ -40,7 +38,12 @@ pub(crate) fn rectangle([left, bottom, right, top]: [f32; 4], z: f32) -> Mesh {
 
 pub(crate) const WHOLE: [f32; 4] = [-1.0, -1.0, 1.0, 1.0];
 
-pub(crate) fn draw<'a>(vertex: Shader<'a>, fragment: Shader<'a>, mesh: &'a Mesh, colour: [f32; 4]) -> Draw<'a> {
+pub(crate) fn draw<'a>(
+    vertex: Shader<'a>,
+    fragment: Shader<'a>,
+    mesh: &'a Mesh,
+    colour: [f32; 4],
+) -> Draw<'a> {
     let mut resources = Resources::default();
     resources.uniforms.insert("colour".into(), colour.to_vec());
     let (cull, blend, depth) = (Cull::None, Blend::Replace, Depth::TestAndWrite);
