@@ -85,6 +85,9 @@ pub enum Error {
         /// Upper end.
         hi: f64,
     },
+    /// A sidecar of input ranges is wrong, or does not fit the shader.
+    #[error(transparent)]
+    Ranges(Box<crate::ranges::Report>),
     /// The shader executed more operations than it was allowed; it probably does not end.
     #[error(
         "the operation budget of {budget} operations for each invocation is used up; raise `Limits::operations` if the shader does end"
@@ -130,6 +133,7 @@ impl Error {
             | Self::Texture { .. }
             | Self::Input { .. }
             | Self::EmptyRange { .. }
+            | Self::Ranges(_)
             | Self::Memory { .. } => None,
         }
     }

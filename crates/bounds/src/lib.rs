@@ -74,6 +74,7 @@ mod exec;
 mod interval;
 mod kind;
 mod limits;
+pub mod ranges;
 mod run;
 mod stage;
 mod texture;

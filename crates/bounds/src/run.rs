@@ -4,6 +4,8 @@ mod batches;
 mod ports;
 mod prepare;
 
+pub(crate) use ports::slot_of;
+
 use crate::bindings::{Bindings, BufferData, Scalar};
 use crate::compile::program::Program;
 use crate::domain::Domain;

@@ -146,7 +146,7 @@ impl Program {
     }
 }
 
-fn no_entry(module: &Module, name: &str) -> Error {
+pub(crate) fn no_entry(module: &Module, name: &str) -> Error {
     let available = module
         .entry_points
         .iter()

@@ -118,7 +118,7 @@ pub(super) fn name_of(binding: &Binding) -> String {
     }
 }
 
-pub(super) fn slot_of(binding: &Binding) -> Option<Slot> {
+pub(crate) fn slot_of(binding: &Binding) -> Option<Slot> {
     match binding {
         Binding::Location {
             location, blend_src, ..

@@ -9,4 +9,5 @@ mod flow;
 mod generated;
 mod limits;
 mod math;
+mod ranges;
 mod textures;
