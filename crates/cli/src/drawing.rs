@@ -11,7 +11,7 @@ use bossage_runner::{
     AddressMode, Blend, Clear, Code, Cull, Depth, Draw, Machine, Mesh, RenderJob, RenderTarget, Resources,
     SamplerSettings, Shader as Stage, TexelFormat, TextureData, TextureDimension,
 };
-use bossage_scene::{Plan, Scene, Texels, Texture};
+use bossage_scene::{Plan, Scene, Texels, Texture, TextureShape};
 use bossage_shaders::Library;
 use bossage_translate::manifest::Entry;
 use rayon::prelude::*;
@@ -161,7 +161,10 @@ fn data(texture: &Texture) -> TextureData {
         width: first.map_or(0, |level| level.width),
         height: first.map_or(0, |level| level.height),
         format: first.map_or(TexelFormat::Rgba8Unorm, |level| format(&level.texels)),
-        dimension: TextureDimension::Plane,
+        dimension: match texture.shape {
+            TextureShape::Plane => TextureDimension::Plane,
+            TextureShape::Cube => TextureDimension::Cube,
+        },
         levels: texture.levels.iter().map(|level| bytes(&level.texels)).collect(),
     }
 }
@@ -169,6 +172,7 @@ fn data(texture: &Texture) -> TextureData {
 const fn format(texels: &Texels) -> TexelFormat {
     match texels {
         Texels::Rgba8Unorm(_) => TexelFormat::Rgba8Unorm,
+        Texels::Rgba16Unorm(_) => TexelFormat::Rgba16Unorm,
         Texels::Rgba32Float(_) => TexelFormat::Rgba32Float,
         Texels::R32Float(_) => TexelFormat::R32Float,
     }
@@ -177,6 +181,11 @@ const fn format(texels: &Texels) -> TexelFormat {
 fn bytes(texels: &Texels) -> Vec<u8> {
     match texels {
         Texels::Rgba8Unorm(texels) => texels.as_flattened().to_vec(),
+        Texels::Rgba16Unorm(texels) => texels
+            .as_flattened()
+            .iter()
+            .flat_map(|value| value.to_ne_bytes())
+            .collect(),
         Texels::Rgba32Float(texels) => texels
             .as_flattened()
             .iter()

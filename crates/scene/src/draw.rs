@@ -1,7 +1,7 @@
 //! What to draw: per object its mesh, feature set, uniforms by the shader's names and textures.
 //!
 //! Every draw carries *all* uniforms and textures that any feature set could ask for, neutral where the material has none: a
-//! flat normal, height 0 with relief 0, white albedo, lights of radiance 0, cutoff 0. So one list serves the planned shader
+//! flat normal, height 0 with relief 0, white albedo, lights of radiance 0, cutoff 0, a black surrounding. So one list serves the planned shader
 //! and the all-effects shader alike, and both describe the same surface.
 
 use std::collections::BTreeMap;
@@ -31,7 +31,7 @@ pub struct Draw {
     pub mesh: Arc<Mesh>,
     /// Values by name (`object.clip_from_local`), matrices column by column, arrays flat.
     pub uniforms: BTreeMap<String, Vec<f32>>,
-    /// `albedo_map`, `normal_map`, `height_map`.
+    /// `albedo_map`, `normal_map`, `height_map`; the cubes `environment_map` and `normalisation_map`.
     pub textures: BTreeMap<String, Arc<Texture>>,
     /// Address mode of `surface_sampler`, on both axes.
     pub edge: EdgeMode,
@@ -103,6 +103,11 @@ impl<'a> Prepared<'a> {
             ("albedo_map", albedo),
             ("normal_map", normal),
             ("height_map", height),
+            (
+                "environment_map",
+                Texture::constant_environment([0.0, 0.0, 0.0, 1.0]),
+            ),
+            ("normalisation_map", Texture::smallest_normalisation()),
         ];
         let textures = textures
             .into_iter()

@@ -77,5 +77,5 @@ pub use plan::{
     Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Permutation, Plan, Predicted, State, plan,
 };
 pub use predict::Error as PredictedError;
-pub use textures::{Level, Texels, Texture};
+pub use textures::{Level, Texels, Texture, TextureShape};
 pub use views::Footprint;

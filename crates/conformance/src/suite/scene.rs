@@ -9,6 +9,7 @@
 
 mod pixels;
 mod surface;
+mod upload;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -1,16 +1,16 @@
 //! Renders one object and gathers what each of its pixels got, should have got, and from which interpolants.
 
-use bossage_assets::EdgeMode;
 use bossage_reference::surface::{Fragment as Truth, shade};
 use bossage_runner::{
-    AddressMode, Clear, Cull, Draw as RunnerDraw, Mesh, Picture, RenderJob, RenderTarget, Resources,
-    SamplerSettings, TextureData, is_unwritten,
+    Clear, Cull, Draw as RunnerDraw, Picture, RenderJob, RenderTarget, Resources, SamplerSettings,
+    is_unwritten,
 };
-use bossage_scene::{Draw, Texels, Texture};
+use bossage_scene::Draw;
 use bossage_shaders::{Alpha, FeatureSet, Stage};
 use rayon::prelude::*;
 
 use super::surface::{Maps, bounded, material};
+use super::upload::{address, mesh, textures};
 use crate::bench::Bench;
 use crate::case::with_causes;
 use crate::module::Module;
@@ -139,43 +139,6 @@ fn picture(
         .run(bench.device)
         .map_err(|error| with_causes(&error))?
         .targets)
-}
-
-fn address(edge: EdgeMode) -> AddressMode {
-    match edge {
-        EdgeMode::Wrap => AddressMode::Wrap,
-        EdgeMode::Mirror => AddressMode::Mirror,
-        EdgeMode::Clamp => AddressMode::Clamp,
-    }
-}
-
-fn mesh(draw: &Draw) -> Mesh {
-    let mesh = &draw.mesh;
-    let three = |vectors: &[glam::Vec3]| vectors.iter().map(|v| v.to_array()).collect::<Vec<_>>();
-    let uvs: Vec<[f32; 2]> = mesh.uvs.iter().map(|uv| uv.to_array()).collect();
-    let tangents: Vec<[f32; 4]> = mesh.tangents.iter().map(|t| t.to_array()).collect();
-    Mesh::new(mesh.indices.clone())
-        .with("position", &three(&mesh.positions))
-        .with("normal", &three(&mesh.normals))
-        .with("uv", &uvs)
-        .with("tangent", &tangents)
-}
-
-/// The first level of each texture.
-fn textures(draw: &Draw) -> Vec<(String, TextureData)> {
-    draw.textures
-        .iter()
-        .filter_map(|(name, texture)| Some((name.clone(), texture_data(texture)?)))
-        .collect()
-}
-
-fn texture_data(texture: &Texture) -> Option<TextureData> {
-    let level = texture.levels.first()?;
-    Some(match &level.texels {
-        Texels::Rgba8Unorm(texels) => TextureData::rgba8(level.width, level.height, texels),
-        Texels::Rgba32Float(texels) => TextureData::rgba32f(level.width, level.height, texels),
-        Texels::R32Float(texels) => TextureData::r32f(level.width, level.height, texels),
-    })
 }
 
 /// What is the same for all pixels of a draw.

@@ -4,7 +4,7 @@
 
 use bossage_reference::surface::{self as reference, Light as TruthLight, Material};
 use bossage_reference::{Form as TruthForm, texture::Texture};
-use bossage_scene::{Draw, Texels};
+use bossage_scene::{Draw, Texels, TextureShape};
 use bossage_shaders::{Albedo, Alpha, Form, Lights, NormalSource, Relief as FeatureRelief};
 use glam::{DVec2, DVec3, DVec4};
 
@@ -32,9 +32,15 @@ impl Maps {
 
 /// Level 0 as the sampler returns it.
 fn decoded(draw: &Draw, name: &str) -> Option<(Texture, Storage)> {
-    let level = draw.textures.get(name)?.levels.first()?;
+    let texture = draw.textures.get(name)?;
+    let level = texture
+        .levels
+        .first()
+        .filter(|_| texture.shape == TextureShape::Plane)?;
     let (width, height) = (level.width, level.height);
     Some(match &level.texels {
+        // No plane is stored so.
+        Texels::Rgba16Unorm(_) => return None,
         Texels::Rgba8Unorm(texels) => (
             Texture::from_rgba8(width, height, texels.as_flattened()),
             Storage::Unorm8,
