@@ -1,6 +1,6 @@
 //! Draws: complete for the planned shader and for the one with all effects, and right in their numbers.
 
-use bossage_scene::{Draw, Texels, draws, draws_with, plan};
+use bossage_scene::{Draw, Texels, TextureShape, draws, draws_with, plan};
 use bossage_shaders::{FeatureSet, LightingSpace};
 
 use crate::fixture::{Folder, LAMP, SUN, example, one_plane};
@@ -38,15 +38,31 @@ fn complete(draw: &Draw) {
         draw.object
     );
     let names: Vec<&str> = draw.textures.keys().map(String::as_str).collect();
-    assert_eq!(names, ["albedo_map", "height_map", "normal_map"]);
-    for texture in draw.textures.values() {
+    assert_eq!(
+        names,
+        [
+            "albedo_map",
+            "environment_map",
+            "height_map",
+            "normal_map",
+            "normalisation_map"
+        ]
+    );
+    for (name, texture) in &draw.textures {
+        let faces = match texture.shape {
+            TextureShape::Plane => 1,
+            TextureShape::Cube => 6,
+        };
+        let is_cube = ["environment_map", "normalisation_map"].contains(&name.as_str());
+        assert_eq!(texture.shape == TextureShape::Cube, is_cube, "{name}");
         let last = texture.levels.last().expect("at least one level");
-        assert_eq!((last.width, last.height), (1, 1));
+        assert!(is_cube || (last.width, last.height) == (1, 1), "{name}");
         assert!(
             texture
                 .levels
                 .iter()
-                .all(|level| level.texels.len() == level.width as usize * level.height as usize)
+                .all(|level| level.texels.len() == faces * level.width as usize * level.height as usize),
+            "{name}"
         );
     }
     assert_eq!(draw.mesh.tangents.len(), draw.mesh.positions.len());
