@@ -70,11 +70,6 @@ pub const TABLE: &[Tolerance] = &[
         let (n, t) = (a.array(), a.array());
         bitangent(&n, &t).to_vec()
     }),
-    row!(
-        "tangent_from_normal",
-        "1 / (s + z) has |s + z| ≥ 1, so the quotient and five products and sums stay near 1 ULP each",
-        |a| { tangent_from_normal(&a.array()).to_vec() }
-    ),
     row!("linear_part", "a selection: exact", |a| {
         let m: [[Bounded; 4]; 4] = a.matrix();
         (0..9).map(|i| m[i / 3][i % 3]).collect()

@@ -10,7 +10,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::vector::{normalize, sign_not_zero};
+use crate::vector::{SMALLEST_NORMAL_F32, normalize, sign_not_zero};
 
 /// The `sign` of the shading languages: 0 for 0.
 #[must_use]
@@ -24,10 +24,23 @@ pub fn encode_published(direction: DVec3) -> DVec2 {
     encode_by(sign_of_shaders, direction)
 }
 
-/// With the sign of zero taken as +1. The zero vector gives NaN.
+/// With the sign of zero taken as +1. A vector without direction (below the smallest normal f32) gives (0, 0), which is +z.
 #[must_use]
 pub fn encode_hardened(direction: DVec3) -> DVec2 {
+    if direction.abs().max_element() < SMALLEST_NORMAL_F32 {
+        return DVec2::ZERO;
+    }
     encode_by(sign_not_zero, direction)
+}
+
+/// Between the inner diamond and the corners of the square; its own inverse.
+#[must_use]
+pub fn fold(p: DVec2) -> DVec2 {
+    fold_by(sign_not_zero, p)
+}
+
+fn fold_by(sign: fn(f64) -> f64, p: DVec2) -> DVec2 {
+    DVec2::new((1.0 - p.y.abs()) * sign(p.x), (1.0 - p.x.abs()) * sign(p.y))
 }
 
 fn encode_by(sign: fn(f64) -> f64, d: DVec3) -> DVec2 {
@@ -35,21 +48,14 @@ fn encode_by(sign: fn(f64) -> f64, d: DVec3) -> DVec2 {
     if d.z >= 0.0 {
         return p;
     }
-    DVec2::new((1.0 - p.y.abs()) * sign(p.x), (1.0 - p.x.abs()) * sign(p.y))
+    fold_by(sign, p)
 }
 
 /// The unit direction of a point of the square.
 #[must_use]
 pub fn decode(e: DVec2) -> DVec3 {
     let z = 1.0 - e.x.abs() - e.y.abs();
-    let p = if z >= 0.0 {
-        e
-    } else {
-        DVec2::new(
-            (1.0 - e.y.abs()) * sign_not_zero(e.x),
-            (1.0 - e.x.abs()) * sign_not_zero(e.y),
-        )
-    };
+    let p = if z >= 0.0 { e } else { fold(e) };
     normalize(p.extend(z))
 }
 
@@ -67,6 +73,7 @@ mod tests {
         assert_eq!(encode_hardened(DVec3::X), DVec2::X);
         assert_eq!(encode_hardened(-DVec3::Y), -DVec2::Y);
         assert_eq!(encode_hardened(-DVec3::Z), DVec2::ONE);
+        assert_eq!(encode_hardened(DVec3::ZERO), DVec2::ZERO);
         for corner in [DVec2::ONE, -DVec2::ONE, DVec2::new(1.0, -1.0)] {
             assert_eq!(decode(corner), -DVec3::Z);
         }

@@ -51,6 +51,13 @@ pub fn gradient_central(field: &HeightField, edge: EdgeMode, uv: DVec2) -> DVec2
     DVec2::new(h(du) - h(-du), h(dv) - h(-dv)) / (2.0 * step)
 }
 
+/// The slopes ∂z/∂u and ∂z/∂v from the heights one texel to either side: left, right along u, before, after along v.
+/// `slope` is what a height difference of 1 stands for: scale · side / 2, with the scale in the mesh's units.
+#[must_use]
+pub fn slope([left, right, before, after]: [f64; 4], slope: DVec2) -> DVec2 {
+    DVec2::new(right - left, after - before) * slope
+}
+
 /// P + z(h)·unit·N: the elevation in UV units times `unit`, the mesh's length of one UV unit.
 #[must_use]
 pub fn position(position: DVec3, normal: DVec3, height: f64, scale: f64, bias: f64, unit: f64) -> DVec3 {

@@ -22,6 +22,12 @@ pub fn hardened(normal: DVec3, light: DVec3, diffuse: DVec3) -> DVec3 {
     saturate(normal.dot(normalize_or_zero(light))) * diffuse
 }
 
+/// With a normalisation cube map in place of the division: `light_color` is what the lookup found, in [0, 1].
+#[must_use]
+pub fn through_cube(normal: DVec3, light_color: DVec3, diffuse: DVec3) -> DVec3 {
+    saturate(normal.dot(2.0 * light_color - 1.0)) * diffuse
+}
+
 /// The texture combiner's form of the dot product on colours in [0, 1]: saturate(4 · Σ (a − ½)(b − ½)).
 #[must_use]
 pub fn combiner(a: DVec3, b: DVec3) -> f64 {
@@ -32,7 +38,7 @@ pub fn combiner(a: DVec3, b: DVec3) -> f64 {
 mod tests {
     use glam::DVec3;
 
-    use super::{combiner, hardened, published};
+    use super::{combiner, hardened, published, through_cube};
 
     #[test]
     fn the_combiner_is_the_dot_product_of_decoded_colours() {
@@ -48,6 +54,14 @@ mod tests {
             combiner(DVec3::new(0.75, 0.5, 1.0), DVec3::new(1.0, 0.5, 0.5)),
             0.5
         );
+    }
+
+    #[test]
+    fn the_cube_s_colour_stands_for_the_light() {
+        // The colour of (0.6, 0, 0.8).
+        let color = DVec3::new(0.8, 0.5, 0.9);
+        assert!((through_cube(DVec3::Z, color, DVec3::ONE).x - 0.8).abs() < 1e-15);
+        assert_eq!(through_cube(-DVec3::Z, color, DVec3::ONE), DVec3::ZERO);
     }
 
     #[test]

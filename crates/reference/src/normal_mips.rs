@@ -11,7 +11,7 @@
 
 use glam::DVec3;
 
-use crate::vector::normalize;
+use crate::vector::{SMALLEST_NORMAL_F32, normalize};
 
 /// One level: averages of decoded normals, not normalised.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,10 +83,24 @@ pub fn chain(base: Level) -> Vec<Level> {
     levels
 }
 
-/// The normal of an average, unit; (0, 0, 1) where the average vanishes.
+/// The shares of the texels 2i, 2i + 1 and 2i + 2 of a row of `from` texels in texel i of the next level, by overlap: they sum
+/// to 1. An index beyond the level counts as its last.
+#[must_use]
+pub fn shares(index: u32, from: u32) -> [f64; 3] {
+    let to = (from / 2).max(1);
+    let stretch = f64::from(from) / f64::from(to);
+    let first = f64::from(index.min(to - 1));
+    let (start, end) = (first * stretch, (first + 1.0) * stretch);
+    [0.0, 1.0, 2.0].map(|step| {
+        let texel = 2.0 * first + step;
+        (end.min(texel + 1.0) - start.max(texel)).max(0.0) / stretch
+    })
+}
+
+/// The normal of an average, unit; (0, 0, 1) where the average has no direction.
 #[must_use]
 pub fn naive(mean: DVec3) -> DVec3 {
-    if mean == DVec3::ZERO {
+    if mean.abs().max_element() < SMALLEST_NORMAL_F32 {
         DVec3::Z
     } else {
         normalize(mean)
@@ -97,7 +111,7 @@ pub fn naive(mean: DVec3) -> DVec3 {
 mod tests {
     use glam::DVec3;
 
-    use super::{Level, chain, naive};
+    use super::{Level, chain, naive, shares};
 
     fn row(texels: &[DVec3]) -> Level {
         Level {
@@ -134,6 +148,32 @@ mod tests {
         let ramp: Vec<DVec3> = (0..5).map(|i| DVec3::splat(f64::from(10 * (i + 1)))).collect();
         let next = row(&ramp).next();
         assert!((next.mean(0, 0).x - 18.0).abs() < 1e-13 && (next.mean(1, 0).x - 42.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn shares_are_the_weights_of_the_average() {
+        assert_eq!((shares(0, 1), shares(3, 8)), ([1.0, 0.0, 0.0], [0.5, 0.5, 0.0]));
+        for (from, to) in [(3, 1), (5, 2), (7, 3), (64, 32), (101, 50)] {
+            for index in 0..to {
+                // A texel's weight is what an image that is 1 there and 0 elsewhere averages to.
+                let weight = |texel: u32| {
+                    let texels: Vec<DVec3> = (0..from)
+                        .map(|i| DVec3::splat(f64::from(u8::from(i == texel))))
+                        .collect();
+                    row(&texels).next().mean(index, 0).x
+                };
+                let [a, b, c] = shares(index, from);
+                assert!((a + b + c - 1.0).abs() < 1e-12, "{from} {index}");
+                for (step, share) in [a, b, c].into_iter().enumerate() {
+                    let texel = 2 * index + step as u32;
+                    // Products of up to 101 with a few roundings of 2^-53.
+                    assert!(
+                        texel >= from || (share - weight(texel)).abs() < 1e-13,
+                        "{from} {index} {step}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]

@@ -32,23 +32,40 @@ pub fn factor_hardened(ambient_occlusion: f64, ambient: f64, normal: DVec3, ligh
     0.75 * (saturate(ambient_occlusion) * ambient + wrapped).clamp(0.0, 2.0)
 }
 
+/// Whether a surface of that alpha is cut out. The cutoff is an f32 in every shader.
+#[must_use]
+pub fn is_hole(alpha: f64) -> bool {
+    alpha < f64::from(ALPHA_CUTOFF as f32)
+}
+
 /// As published: colour and alpha times the factor.
 #[must_use]
-pub fn published(factor: f64, light_color: DVec4, surface: DVec4) -> Fragment {
-    if surface.w < ALPHA_CUTOFF {
-        Fragment::Discarded
-    } else {
-        Fragment::Color(factor * light_color * surface)
-    }
+pub fn color_published(factor: f64, light_color: DVec4, surface: DVec4) -> DVec4 {
+    factor * light_color * surface
 }
 
 /// Hardened: the surface keeps its alpha.
 #[must_use]
-pub fn hardened(factor: f64, light_color: DVec3, surface: DVec4) -> Fragment {
-    if surface.w < ALPHA_CUTOFF {
+pub fn color_hardened(factor: f64, light_color: DVec3, surface: DVec4) -> DVec4 {
+    (factor * light_color * surface.truncate()).extend(surface.w)
+}
+
+/// As published, holes cut out.
+#[must_use]
+pub fn published(factor: f64, light_color: DVec4, surface: DVec4) -> Fragment {
+    if is_hole(surface.w) {
         return Fragment::Discarded;
     }
-    Fragment::Color((factor * light_color * surface.truncate()).extend(surface.w))
+    Fragment::Color(color_published(factor, light_color, surface))
+}
+
+/// Hardened, holes cut out.
+#[must_use]
+pub fn hardened(factor: f64, light_color: DVec3, surface: DVec4) -> Fragment {
+    if is_hole(surface.w) {
+        return Fragment::Discarded;
+    }
+    Fragment::Color(color_hardened(factor, light_color, surface))
 }
 
 #[cfg(test)]
@@ -102,7 +119,7 @@ mod tests {
         let hole = DVec4::new(1.0, 1.0, 1.0, 0.009);
         assert_eq!(published(1.0, DVec4::ONE, hole), Fragment::Discarded);
         assert_eq!(hardened(1.0, DVec3::ONE, hole), Fragment::Discarded);
-        let edge = DVec4::new(1.0, 1.0, 1.0, 0.01);
+        let edge = DVec4::new(1.0, 1.0, 1.0, f64::from(0.01_f32));
         assert_ne!(hardened(1.0, DVec3::ONE, edge), Fragment::Discarded);
     }
 }

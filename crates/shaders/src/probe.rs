@@ -50,6 +50,8 @@ pub enum Shape {
     U32,
     /// `i32`, carried as a float.
     I32,
+    /// `bool`, carried as 0 or 1.
+    Bool,
     /// `vec2f`.
     Vec2,
     /// `vec3f`.
@@ -67,7 +69,7 @@ impl Shape {
     #[must_use]
     pub const fn floats(self) -> usize {
         match self {
-            Shape::F32 | Shape::U32 | Shape::I32 => 1,
+            Shape::F32 | Shape::U32 | Shape::I32 | Shape::Bool => 1,
             Shape::Vec2 => 2,
             Shape::Vec3 => 3,
             Shape::Vec4 => 4,
@@ -128,6 +130,22 @@ pub enum Role {
     Index,
     /// A number of texels, at least one.
     Size,
+    /// A texel's column or row, not negative.
+    Texel,
+    /// A face of a cube map, 0 to 5.
+    Face,
+    /// A factor, not negative.
+    Gain,
+    /// A length, above zero.
+    Length,
+    /// The largest code of a signed format: 127 or 32767.
+    SnormOne,
+    /// A whole number in [−32768, 32767]: a code of a signed format.
+    SnormCode,
+    /// The largest code of an unsigned format: 255 or 65535.
+    UnormOne,
+    /// A whole number in [0, 65535]: a code of an unsigned format.
+    UnormCode,
     /// An edge mode: 0 wrap, 1 mirror, 2 clamp.
     EdgeMode,
     /// An output, to be compared component by component.

@@ -47,6 +47,7 @@ fn argument(shape: Shape, at: usize) -> String {
         Shape::F32 => floats[0].clone(),
         Shape::U32 => format!("u32({})", floats[0]),
         Shape::I32 => format!("i32({})", floats[0]),
+        Shape::Bool => format!("{} != 0.0", floats[0]),
         Shape::Vec2 => format!("vec2f({})", floats.join(", ")),
         Shape::Vec3 => format!("vec3f({})", floats.join(", ")),
         Shape::Vec4 => format!("vec4f({})", floats.join(", ")),
@@ -85,7 +86,7 @@ fn components(shape: Shape, value: &str) -> Vec<String> {
     };
     match shape {
         Shape::F32 => vec![value.to_owned()],
-        Shape::U32 | Shape::I32 => vec![format!("f32({value})")],
+        Shape::U32 | Shape::I32 | Shape::Bool => vec![format!("f32({value})")],
         Shape::Vec2 => vector(2),
         Shape::Vec3 => vector(3),
         Shape::Vec4 => vector(4),

@@ -28,6 +28,7 @@ const HARDENED: &[Form] = &[Form::Hardened];
 const PARALLAX_BUMP: &str = "Dachsbacher, Parallax Bump Mapping (PC Underground)";
 const DOT3: &str = "Pettersen, Bumpmapping (DOT3 and normalisation cube maps)";
 const HEIGHT_MAPS: &str = "Normal Maps und Height Maps (OpenGL tutorials)";
+const SLOPE_AO: &str = "Parallax Mapping + Ambient Occlusion (OpenGL tutorials)";
 
 /// Every technique, sorted by name.
 pub const TECHNIQUES: &[Technique] = &[
@@ -44,16 +45,70 @@ pub const TECHNIQUES: &[Technique] = &[
         source: HEIGHT_MAPS,
     },
     Technique {
+        id: "codec_octahedral",
+        files: &["techniques/codec_octahedral.wesl"],
+        forms: BOTH,
+        source: "Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors (2014)",
+    },
+    Technique {
+        id: "codec_snorm",
+        files: &["techniques/codec_snorm.wesl"],
+        forms: HARDENED,
+        source: "the fixed-point conversions of the graphics interfaces",
+    },
+    Technique {
+        id: "codec_two_channel",
+        files: &["techniques/codec_two_channel.wesl"],
+        forms: BOTH,
+        source: "two-channel normal maps (BC5, RG8); no single source",
+    },
+    Technique {
         id: "codec_unorm",
         files: &["techniques/codec_unorm.wesl"],
         forms: HARDENED,
         source: HEIGHT_MAPS,
     },
     Technique {
+        id: "displacement",
+        files: &["techniques/displacement.wesl"],
+        forms: HARDENED,
+        source: PARALLAX_BUMP,
+    },
+    Technique {
         id: "dot3",
         files: &["techniques/dot3.wesl"],
         forms: BOTH,
         source: DOT3,
+    },
+    Technique {
+        id: "dot3_single_pass",
+        files: &["techniques/dot3_single_pass.wesl"],
+        forms: BOTH,
+        source: DOT3,
+    },
+    Technique {
+        id: "dot3_two_pass",
+        files: &["techniques/dot3_two_pass.wesl"],
+        forms: HARDENED,
+        source: DOT3,
+    },
+    Technique {
+        id: "emboss",
+        files: &["techniques/emboss.wesl"],
+        forms: HARDENED,
+        source: "Schlag, Fast Embossing Effects on Raster Image Data (1994)",
+    },
+    Technique {
+        id: "environment_bump",
+        files: &["techniques/environment_bump.wesl"],
+        forms: BOTH,
+        source: DOT3,
+    },
+    Technique {
+        id: "frame_from_normal",
+        files: &["techniques/frame_from_normal.wesl"],
+        forms: BOTH,
+        source: PARALLAX_BUMP,
     },
     Technique {
         id: "frame_from_uv",
@@ -89,10 +144,22 @@ pub const TECHNIQUES: &[Technique] = &[
         source: PARALLAX_BUMP,
     },
     Technique {
+        id: "normal_mips",
+        files: &["techniques/normal_mips.wesl"],
+        forms: BOTH,
+        source: HEIGHT_MAPS,
+    },
+    Technique {
         id: "normal_transform",
         files: &["techniques/normal_transform.wesl"],
         forms: BOTH,
         source: PARALLAX_BUMP,
+    },
+    Technique {
+        id: "normalisation_cube_map",
+        files: &["techniques/normalisation_cube_map.wesl"],
+        forms: HARDENED,
+        source: DOT3,
     },
     Technique {
         id: "parallax_offset",
@@ -105,5 +172,23 @@ pub const TECHNIQUES: &[Technique] = &[
         files: &["techniques/parallax_offset_limited.wesl"],
         forms: HARDENED,
         source: PARALLAX_BUMP,
+    },
+    Technique {
+        id: "parallax_slope_ao",
+        files: &["techniques/parallax_slope_ao.wesl"],
+        forms: BOTH,
+        source: SLOPE_AO,
+    },
+    Technique {
+        id: "parallax_slope_ao_directed",
+        files: &["techniques/parallax_slope_ao_directed.wesl"],
+        forms: HARDENED,
+        source: SLOPE_AO,
+    },
+    Technique {
+        id: "wrap_lambert",
+        files: &["techniques/wrap_lambert.wesl"],
+        forms: BOTH,
+        source: SLOPE_AO,
     },
 ];

@@ -48,6 +48,30 @@ const IDENTITY: [f32; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
 /// The table, in the order of the library.
 pub const TABLE: &[Known] = &[
+    // The saddle 0 1 / 1 0 at (1/4, 1/4): x + y − 2xy = 3/8, slopes 1 − 2y and 1 − 2x.
+    known("bilinear", &[0.0, 1.0, 1.0, 0.0, 0.25, 0.25], &[0.375]),
+    known(
+        "bilinear_gradient",
+        &[0.0, 1.0, 1.0, 0.0, 0.25, 0.75],
+        &[-0.5, 0.5],
+    ),
+    // The table of the specifications: a direction a little off each major axis.
+    known("cube_place", &[1.0, 0.5, 0.25], &[0.0, 0.375, 0.25]),
+    known("cube_place", &[-1.0, 0.5, 0.25], &[1.0, 0.625, 0.25]),
+    known("cube_place", &[0.5, 1.0, 0.25], &[2.0, 0.75, 0.625]),
+    known("cube_place", &[0.5, -1.0, 0.25], &[3.0, 0.75, 0.375]),
+    known("cube_place", &[0.5, 0.25, 1.0], &[4.0, 0.75, 0.375]),
+    known("cube_place", &[0.5, 0.25, -1.0], &[5.0, 0.25, 0.375]),
+    known("cube_place", &[0.0, 0.0, 0.0], &[4.0, 0.5, 0.5]),
+    known("cube_st", &[1.0, -1.0, 2.0], &[0.75, 0.25]),
+    known("cube_point", &[0.0, 0.5, 0.25], &[1.0, -0.25, -0.5]),
+    known("cube_point", &[3.0, 0.5, 0.25], &[0.5, -1.0, -0.25]),
+    known("cube_point", &[5.0, 0.5, 0.25], &[-0.5, -0.25, -1.0]),
+    known(
+        "cube_footprint",
+        &[0.5, 0.0, 4.0],
+        &[1.0, 0.0, 2.0, 0.0, 0.5, 0.5],
+    ),
     known("resolve_edge", &[-1.0, 4.0, 0.0], &[3.0]),
     known("resolve_edge", &[-1.0, 4.0, 1.0], &[0.0]),
     known("resolve_edge", &[4.0, 4.0, 1.0], &[3.0]),
@@ -70,8 +94,6 @@ pub const TABLE: &[Known] = &[
         &[0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 1.0],
         &[0.0, 2.0, 0.0],
     ),
-    known("tangent_from_normal", &[0.0, 0.0, 1.0], &[1.0, 0.0, 0.0]),
-    known("tangent_from_normal", &[0.0, 0.0, -1.0], &[1.0, 0.0, 0.0]),
     // A stretch of 2 along x: cof = diag(1, 2, 2), scaled by min(s) / (s₀ s₁ s₂) = 1/2.
     known(
         "cofactor_direction",
@@ -156,6 +178,60 @@ pub const TABLE: &[Known] = &[
         &[0.0, 128.0, 255.0],
         &[-128.0 / 127.0, 0.0, 1.0],
     ),
+    known("codec_octahedral_encode", &[0.0, 0.0, 5.0], &[0.0, 0.0]),
+    known("codec_octahedral_encode", &[0.0, -1e-30, 0.0], &[0.0, -1.0]),
+    known("codec_octahedral_encode", &[0.0, 0.0, -1.0], &[1.0, 1.0]),
+    known("codec_octahedral_encode", &[0.0, 0.0, 0.0], &[0.0, 0.0]),
+    // (1, 2, −1)/4 lies in the lower half: folded over the edge to (1 − 1/2, 1 − 1/4).
+    known("codec_octahedral_encode", &[1.0, 2.0, -1.0], &[0.5, 0.75]),
+    known(
+        "codec_octahedral_encode_published",
+        &[1.0, 2.0, -1.0],
+        &[0.5, 0.75],
+    ),
+    known("codec_octahedral_decode", &[0.0, 0.0], &[0.0, 0.0, 1.0]),
+    known("codec_octahedral_decode", &[-1.0, 1.0], &[0.0, 0.0, -1.0]),
+    known(
+        "codec_octahedral_decode",
+        &[0.5, 0.5],
+        &[HALF_ROOT, HALF_ROOT, 0.0],
+    ),
+    known("octahedral_fold", &[0.25, -0.5], &[0.5, -0.75]),
+    known(
+        "codec_snorm_encode",
+        &[-1.0, 0.0, 1.0, 127.0],
+        &[-127.0, 0.0, 127.0],
+    ),
+    // Ties go away from zero: 16383.5 and −16383.5.
+    known(
+        "codec_snorm_encode",
+        &[0.5, -0.5, 0.25, 32_767.0],
+        &[16_384.0, -16_384.0, 8192.0],
+    ),
+    known(
+        "codec_snorm_decode",
+        &[-128.0, 0.0, 127.0, 127.0],
+        &[-1.0, 0.0, 1.0],
+    ),
+    known(
+        "codec_snorm_decode",
+        &[-32_768.0, -32_767.0, 32_767.0, 32_767.0],
+        &[-1.0, -1.0, 1.0],
+    ),
+    known(
+        "codec_two_channel_encode",
+        &[0.6, 0.0, 0.8],
+        &[0.600_000_023_841_857_9, 0.0],
+    ),
+    known("codec_two_channel_decode", &[0.0, 0.0], &[0.0, 0.0, 1.0]),
+    // Nothing left for z, and less than nothing.
+    known("codec_two_channel_decode", &[1.0, 0.0], &[1.0, 0.0, 0.0]),
+    known("codec_two_channel_decode", &[0.75, -1.0], &[0.75, -1.0, 0.0]),
+    known(
+        "codec_two_channel_decode_published",
+        &[0.0, 0.0],
+        &[0.0, 0.0, 1.0],
+    ),
     known("codec_unorm_encode", &[-1.0, 0.0, 1.0], &[0.0, 0.5, 1.0]),
     known("codec_unorm_decode", &[0.0, 0.5, 1.0], &[-1.0, 0.0, 1.0]),
     known("codec_unorm_encode_byte", &[-1.0, 0.0, 1.0], &[0.0, 128.0, 255.0]),
@@ -179,7 +255,130 @@ pub const TABLE: &[Known] = &[
         &[0.0, 0.0, 1.0, 3.0, 0.0, 4.0, 1.0, 1.0, 0.0],
         &[0.8, 0.8, 0.0],
     ),
+    // The colour of (0.5, 0, 1).
+    known(
+        "dot3_cube",
+        &[0.0, 0.0, 0.5, 0.75, 0.5, 1.0, 1.0, 0.5, 0.25],
+        &[0.5, 0.25, 0.125],
+    ),
     known("dot3_combiner", &[0.5, 0.5, 1.0, 0.5, 0.5, 1.0], &[1.0]),
+    known(
+        "dot3_single_pass",
+        &[0.5, 0.5, 1.0, 0.75, 0.5, 0.75, 1.0, 0.5, 0.25],
+        &[0.5, 0.25, 0.125],
+    ),
+    known("light_to_colour", &[3.0, 0.0, 4.0], &[0.8, 0.5, 0.9]),
+    known("light_to_colour", &[0.0, 0.0, 0.0], &[0.5, 0.5, 0.5]),
+    known("light_to_colour_published", &[3.0, 0.0, 4.0], &[0.8, 0.5, 0.9]),
+    known(
+        "dot3_first_pass",
+        &[0.5, 0.5, 1.0, 0.75, 0.5, 0.75],
+        &[0.5, 0.5, 0.5],
+    ),
+    known(
+        "dot3_second_pass",
+        &[0.5, 0.5, 0.5, 1.0, 0.5, 0.25],
+        &[0.5, 0.25, 0.125],
+    ),
+    known("quantise_unorm8", &[0.0, 1.0, 0.25], &[0.0, 1.0, 64.0 / 255.0]),
+    // I = 1/2 is kept as 128/255, and that times 1/4 as 32/255.
+    known(
+        "dot3_two_pass",
+        &[0.5, 0.5, 1.0, 0.75, 0.5, 0.75, 1.0, 0.25, 0.0],
+        &[128.0 / 255.0, 32.0 / 255.0, 0.0],
+    ),
+    // Level ground half way up, 4 units a tile: 1/2 · 1/2 − 1/8 = 1/8 tile, 1/2 unit.
+    known(
+        "displacement",
+        &[1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.5, 0.5, -0.125, 4.0],
+        &[1.0, 0.0, 0.5],
+    ),
+    known(
+        "displacement_slope",
+        &[0.25, 0.75, 0.5, 0.25, 2.0, 4.0],
+        &[1.0, -1.0],
+    ),
+    known(
+        "displacement_normal",
+        &[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.75, 0.0],
+        &[-0.6, 0.0, 0.8],
+    ),
+    // Mirrored along u: the rise is toward −x, and the normal outward still.
+    known(
+        "displacement_normal",
+        &[0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.75, 0.0],
+        &[0.6, 0.0, 0.8],
+    ),
+    known(
+        "emboss_uv",
+        &[0.5, 0.25, 0.6, 0.0, 0.8, 0.5],
+        &[0.800_000_011_920_929, 0.25],
+    ),
+    known("emboss_difference", &[0.75, 0.5], &[0.25]),
+    known("emboss", &[0.5, 0.75, 0.5], &[0.75]),
+    known("emboss", &[0.25, 0.0, 1.0], &[0.0]),
+    // Seen along the normal, back again; seen edge on, straight on.
+    known(
+        "environment_bump",
+        &[0.0, 0.0, 1.0, 0.0, 0.0, 0.5],
+        &[0.0, 0.0, 1.0],
+    ),
+    known(
+        "environment_bump",
+        &[1.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+        &[-1.0, 0.0, 0.0],
+    ),
+    known(
+        "environment_bump",
+        &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+        &[0.0, 0.0, -1.0],
+    ),
+    known(
+        "environment_bump_published",
+        &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0],
+        &[0.0, 0.0, 1.0],
+    ),
+    known(
+        "frame_from_normal",
+        &[0.0, 0.0, 1.0],
+        &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+    ),
+    known(
+        "frame_from_normal",
+        &[0.0, 0.0, -1.0],
+        &[1.0, 0.0, 0.0, 0.0, -1.0, 0.0],
+    ),
+    known(
+        "frame_from_normal",
+        &[1.0, 0.0, 0.0],
+        &[0.0, 0.0, -1.0, 0.0, 1.0, 0.0],
+    ),
+    // A = (0, −1, 0), T = z × A = x, B = T × N = −y.
+    known(
+        "frame_from_normal_published",
+        &[0.0, 0.0, 1.0],
+        &[1.0, 0.0, 0.0, 0.0, -1.0, 0.0],
+    ),
+    known(
+        "frame_from_normal_unit_published",
+        &[0.0, 0.0, 1.0],
+        &[1.0, 0.0, 0.0, 0.0, -1.0, 0.0],
+    ),
+    known(
+        "frame_hughes_moller_published",
+        &[1.0, 0.0, 0.0],
+        &[0.0, 0.0, -1.0, 0.0, 1.0, 0.0],
+    ),
+    known(
+        "frame_frisvad_published",
+        &[0.0, 0.0, 1.0],
+        &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0],
+    ),
+    known(
+        "frame_frisvad_published",
+        &[0.0, 0.0, -1.0],
+        &[0.0, -1.0, 0.0, -1.0, 0.0, 0.0],
+    ),
     // The unit triangle with the unit texture: T = x, B = y, twice the area 1.
     known(
         "frame_from_uv_triangle",
@@ -282,6 +481,41 @@ pub const TABLE: &[Known] = &[
         ],
         &[0.0, 2.0, 2.0],
     ),
+    known("mip_shares", &[0.0, 1.0], &[1.0, 0.0, 0.0]),
+    known("mip_shares", &[3.0, 8.0], &[0.5, 0.5, 0.0]),
+    // 5 texels over 2: (1, 1, 1/2) and (1/2, 1, 1), times 2/5.
+    known("mip_shares", &[0.0, 5.0], &[0.4, 0.4, 0.2]),
+    known("mip_shares", &[1.0, 5.0], &[0.2, 0.4, 0.4]),
+    known("normal_mips", &[0.375, 0.0, 0.5], &[0.6, 0.0, 0.8]),
+    known("normal_mips", &[0.0, 0.0, 0.0], &[0.0, 0.0, 1.0]),
+    known("normal_mips_published", &[0.375, 0.0, 0.5], &[0.375, 0.0, 0.5]),
+    known("normal_mips_length", &[0.375, 0.0, 0.5], &[0.625]),
+    // One texel a face: the face's own direction. Two: the first of +Z looks along (−1, 1, 2).
+    known("normalisation_cube_map", &[3.0, 0.0, 0.0, 1.0], &[0.0, -1.0, 0.0]),
+    known(
+        "normalisation_cube_map",
+        &[4.0, 0.0, 0.0, 2.0],
+        &[
+            -0.408_248_290_463_863,
+            0.408_248_290_463_863,
+            0.816_496_580_927_726,
+        ],
+    ),
+    known(
+        "normalisation_cube_map_encode",
+        &[-1.0, 0.0, 1.0, 255.0],
+        &[0.0, 128.0, 255.0],
+    ),
+    known(
+        "normalisation_cube_map_encode",
+        &[-1.0, 0.0, 1.0, 65_535.0],
+        &[0.0, 32_768.0, 65_535.0],
+    ),
+    known(
+        "normalisation_cube_map_decode",
+        &[0.0, 51.0, 255.0, 255.0],
+        &[-1.0, -0.6, 1.0],
+    ),
     // Stretched by 2 along x: the normal (1, 0, 1)/√2 leans to (1, 0, 2)/√5.
     known(
         "normal_transform",
@@ -322,6 +556,68 @@ pub const TABLE: &[Known] = &[
         &[0.25, 0.5, 0.5, 0.5, 0.0, 0.75],
         &[0.5, 0.5],
     ),
+    // A slope of (0.6, 0, 0.8) from straight above at half height: 0.36 · 0.8 · 0.04 · 0.5.
+    known(
+        "parallax_slope_ao_delta",
+        &[0.6, 0.0, 0.8, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.5, 0.5],
+        &[0.072],
+    ),
+    known(
+        "parallax_slope_ao_delta",
+        &[0.0, 0.0, 1.5, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.5],
+        &[0.0],
+    ),
+    known(
+        "parallax_slope_ao_delta_published",
+        &[0.0, 0.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 1.0],
+        &[0.375],
+    ),
+    known("slope_occlusion", &[0.0625, 8.0], &[0.5]),
+    known("slope_occlusion", &[1.0, 1.5], &[0.0]),
+    known("slope_occlusion_published", &[1.0, 1.5], &[-0.5]),
+    known("parallax_slope_ao", &[0.5, 0.25, 0.125], &[0.375, 0.125]),
+    known(
+        "parallax_slope_ao_directed",
+        &[0.5, 0.25, 0.5, 0.0, 0.75, 0.5],
+        &[0.75, 0.25],
+    ),
+    known(
+        "wrap_lambert_factor",
+        &[1.0, 0.0, 0.0, 0.0, 3.0, 0.0, 0.0, 1.0],
+        &[0.75],
+    ),
+    known(
+        "wrap_lambert_factor",
+        &[1.0, 0.0, 0.0, 0.0, 1.5, 0.0, 0.0, -1.0],
+        &[0.0],
+    ),
+    known(
+        "wrap_lambert_factor",
+        &[-0.5, 0.5, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0],
+        &[0.375],
+    ),
+    known(
+        "wrap_lambert_factor_published",
+        &[0.5, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0],
+        &[0.9375],
+    ),
+    known(
+        "wrap_lambert_factor_published",
+        &[1.0, 9.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0],
+        &[1.5],
+    ),
+    known(
+        "wrap_lambert",
+        &[0.5, 1.0, 1.0, 2.0, 1.0, 0.5, 0.25, 0.75],
+        &[0.5, 0.25, 0.25, 0.75],
+    ),
+    known(
+        "wrap_lambert_published",
+        &[0.5, 1.0, 1.0, 2.0, 1.0, 1.0, 0.5, 0.25, 0.75],
+        &[0.5, 0.25, 0.25, 0.375],
+    ),
+    known("wrap_lambert_is_hole", &[0.009], &[1.0]),
+    known("wrap_lambert_is_hole", &[0.01], &[0.0]),
 ];
 
 #[cfg(test)]

@@ -144,6 +144,18 @@ fn scalars(role: Role) -> Vec<f32> {
         ],
         Role::Size => vec![1.0, 2.0, 3.0, 255.0, 256.0, 16_384.0],
         Role::EdgeMode => vec![0.0, 1.0, 2.0],
+        Role::Texel => vec![0.0, 1.0, 2.0, 63.0, 64.0, 127.0, 255.0, 16_383.0],
+        Role::Face => vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0],
+        Role::Gain => vec![0.0, 1.0, 40.0, 1e-6, 1000.0, SUBNORMAL],
+        Role::Length => vec![1.0, 0.5, 1e-10, 1e10, f32::MIN_POSITIVE, 8e37],
+        Role::SnormOne => vec![127.0, 32_767.0],
+        Role::SnormCode => vec![
+            0.0, 1.0, -1.0, 127.0, -127.0, -128.0, 32_767.0, -32_767.0, -32_768.0,
+        ],
+        Role::UnormOne => vec![255.0, 65_535.0],
+        Role::UnormCode => vec![
+            0.0, 1.0, 127.0, 128.0, 254.0, 255.0, 32_767.0, 32_768.0, 65_534.0, 65_535.0,
+        ],
         Role::Vector
         | Role::Unit
         | Role::MapNormal

@@ -1,4 +1,4 @@
-//! Inputs for probes: hand-picked, hard, and random, each from the meaning of the fields alone.
+//! Inputs for probes: hand-picked, hard, evenly spaced, and random, each from the meaning of the fields alone.
 //!
 //! A generator knows nothing of the function that it feeds; it knows what a field *is* (`Role`) and what is hard about such
 //! values. Every generator is deterministic: the same call gives the same inputs on every machine.
@@ -6,6 +6,7 @@
 pub mod control;
 pub mod edge;
 pub mod random;
+pub mod spaced;
 
 use bossage_shaders::{Field, Probe};
 

@@ -71,6 +71,14 @@ fn scalar(role: Role, rng: &mut Pcg64Mcg) -> f32 {
         Role::Index => rng.random_range(-70_000..=70_000i32) as f32,
         Role::Size => rng.random_range(1..=16_384u32) as f32,
         Role::EdgeMode => rng.random_range(0..3u32) as f32,
+        Role::Texel => rng.random_range(0..16_384u32) as f32,
+        Role::Face => rng.random_range(0..6u32) as f32,
+        Role::Gain => 64.0 * unorm,
+        Role::Length => log_uniform(rng, -8.0, 8.0) as f32,
+        Role::SnormOne => [127.0, 32_767.0][usize::from(rng.random::<bool>())],
+        Role::SnormCode => rng.random_range(-32_768..=32_767i32) as f32,
+        Role::UnormOne => [255.0, 65_535.0][usize::from(rng.random::<bool>())],
+        Role::UnormCode => rng.random_range(0..=65_535u32) as f32,
         Role::Vector
         | Role::Unit
         | Role::MapNormal

@@ -10,7 +10,7 @@ use crate::bench::Bench;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
-use crate::generate::{Inputs, control, edge, random};
+use crate::generate::{Inputs, control, edge, random, spaced};
 use crate::module::Module;
 use crate::oracle;
 use crate::tolerance::UNDECIDED_LIMIT;
@@ -29,6 +29,7 @@ const PART: usize = ORDINARY;
 enum Generator {
     Control,
     Edge,
+    Spaced { count: usize },
     Random { count: usize, seed: u64 },
 }
 
@@ -42,10 +43,15 @@ struct ProbeCase {
 
 /// The cases of all probes.
 pub fn cases(full: bool, seed: u64) -> impl Iterator<Item = Box<dyn Case>> {
-    let count = if full { FULL } else { ORDINARY };
+    let (count, spaced) = if full {
+        (FULL, spaced::FULL)
+    } else {
+        (ORDINARY, spaced::ORDINARY)
+    };
     let generators = [
         Generator::Control,
         Generator::Edge,
+        Generator::Spaced { count: spaced },
         Generator::Random { count, seed },
     ];
     PROBES
@@ -72,6 +78,7 @@ impl ProbeCase {
         let id = match generator {
             Generator::Control => id(probe, "control"),
             Generator::Edge => id(probe, "edge"),
+            Generator::Spaced { count } => id(probe, "spaced").with("n", count),
             Generator::Random { count, seed } => id(probe, "random").with("n", count).with("seed", seed),
         };
         Self {
@@ -85,7 +92,7 @@ impl ProbeCase {
     fn parts(&self) -> usize {
         match self.generator {
             Generator::Control | Generator::Edge => 1,
-            Generator::Random { count, .. } => count.div_ceil(PART),
+            Generator::Spaced { count } | Generator::Random { count, .. } => count.div_ceil(PART),
         }
     }
 
@@ -93,6 +100,9 @@ impl ProbeCase {
         match self.generator {
             Generator::Control => control::generate(self.probe),
             Generator::Edge => edge::generate(self.probe),
+            Generator::Spaced { count } => {
+                spaced::generate(self.probe, part * PART, PART.min(count - part * PART))
+            }
             Generator::Random { count, seed } => {
                 random::generate(self.probe, PART.min(count - part * PART), part, seed)
             }
@@ -164,11 +174,12 @@ impl ProbeCase {
         Ok(Outcome::of(items, all, self.undecided_limit()))
     }
 
-    /// Only random cases of hardened functions stay inside the documented domain.
+    /// Only random and spaced cases of hardened functions stay inside the documented domain.
     fn undecided_limit(&self) -> f64 {
         match (self.generator, self.probe.form) {
-            (Generator::Random { .. }, Form::Hardened) => UNDECIDED_LIMIT,
-            (Generator::Random { .. }, Form::Published) | (Generator::Control | Generator::Edge, _) => 1.0,
+            (Generator::Spaced { .. } | Generator::Random { .. }, Form::Hardened) => UNDECIDED_LIMIT,
+            (Generator::Spaced { .. } | Generator::Random { .. }, Form::Published)
+            | (Generator::Control | Generator::Edge, _) => 1.0,
         }
     }
 }
@@ -184,7 +195,10 @@ impl Case for ProbeCase {
     }
 
     fn arguments(&self) -> Vec<String> {
-        let full = matches!(self.generator, Generator::Random { count: FULL, .. });
+        let full = matches!(
+            self.generator,
+            Generator::Random { count: FULL, .. } | Generator::Spaced { count: spaced::FULL }
+        );
         full.then(|| "--full".to_owned()).into_iter().collect()
     }
 

@@ -1,0 +1,69 @@
+//! Cube maps, and the normalisation cube map.
+
+use bossage_reference::cube::{face_and_st, point, texel_centre};
+use bossage_reference::vector::{SMALLEST_NORMAL_F32, normalize};
+use bossage_reference::{codec_unorm, normalisation_cube_map::Depth};
+use glam::{DVec2, DVec3};
+
+use super::{Rows, out2, out3, v2, v3};
+
+pub(super) const ROWS: Rows = &[
+    ("cube_place", |a| {
+        let (face, st) = place(v3(a));
+        vec![face as f64, st.x, st.y]
+    }),
+    ("cube_st", |a| {
+        let [s, t, major] = a.array();
+        out2((DVec2::new(s, t) / major + 1.0) / 2.0)
+    }),
+    ("cube_point", |a| {
+        let face = a.scalar() as usize;
+        out3(point(face, (v2(a) + 1.0) / 2.0))
+    }),
+    ("cube_footprint", |a| {
+        let (st, size) = (v2(a), a.scalar());
+        footprint(st, size)
+    }),
+    ("normalisation_cube_map", |a| {
+        let [face, x, y, size] = a.array();
+        let centre = texel_centre(face as usize, x as i64, y as i64, size as u32);
+        out3(normalize(centre))
+    }),
+    ("normalisation_cube_map_encode", |a| {
+        let [x, y, z, largest] = a.array();
+        let code = |n| (depth(largest).store(codec_unorm::encode(n)) * largest).round();
+        [x, y, z].map(code).to_vec()
+    }),
+    ("normalisation_cube_map_decode", |a| {
+        let [x, y, z, largest] = a.array();
+        [x, y, z].map(|code| codec_unorm::decode(code / largest)).to_vec()
+    }),
+];
+
+/// The face and place of a direction; the middle of +Z where there is none.
+fn place(direction: DVec3) -> (usize, DVec2) {
+    if direction.abs().max_element() < SMALLEST_NORMAL_F32 {
+        (4, DVec2::splat(0.5))
+    } else {
+        face_and_st(direction)
+    }
+}
+
+/// First and last texel and the place between them: the texel centres are at whole numbers plus a half.
+fn footprint(st: DVec2, size: f64) -> Vec<f64> {
+    let p = st * size - 0.5;
+    let border = DVec2::splat(size - 1.0);
+    let texel = |step: f64| (p.floor() + step).clamp(DVec2::ZERO, border);
+    [texel(0.0), texel(1.0), p - p.floor()]
+        .into_iter()
+        .flat_map(out2)
+        .collect()
+}
+
+fn depth(largest_code: f64) -> Depth {
+    if largest_code == 255.0 {
+        Depth::Eight
+    } else {
+        Depth::Sixteen
+    }
+}
