@@ -27,11 +27,15 @@ pub enum Kernel {
     NormalMips,
     /// A level of averages to bytes.
     NormalMipsEncode,
+    /// One invocation a direction, through a sampler.
+    NormalisationCubeMapLookup,
+    /// One invocation a direction, filtered within a face.
+    NormalisationCubeMapLookupInFace,
 }
 
 impl Kernel {
     /// Every kernel.
-    pub const ALL: [Kernel; 12] = [
+    pub const ALL: [Kernel; 14] = [
         Kernel::HeightToNormal,
         Kernel::HeightToNormalForward,
         Kernel::HeightToNormalForwardPublished,
@@ -44,6 +48,8 @@ impl Kernel {
         Kernel::NormalMipsDecode,
         Kernel::NormalMips,
         Kernel::NormalMipsEncode,
+        Kernel::NormalisationCubeMapLookup,
+        Kernel::NormalisationCubeMapLookupInFace,
     ];
 
     /// The entry point, which is also the assembled module's name.
@@ -62,6 +68,8 @@ impl Kernel {
             Kernel::NormalMipsDecode => "bake_normal_mips_decode",
             Kernel::NormalMips => "bake_normal_mips",
             Kernel::NormalMipsEncode => "bake_normal_mips_encode",
+            Kernel::NormalisationCubeMapLookup => "normalisation_cube_map_lookup",
+            Kernel::NormalisationCubeMapLookupInFace => "normalisation_cube_map_lookup_in_face",
         }
     }
 
@@ -80,7 +88,9 @@ impl Kernel {
             | Kernel::FrameFromUvVertices
             | Kernel::FrameFromUvVerticesPublished
             | Kernel::NormalMipsDecode
-            | Kernel::NormalMipsEncode => [64, 1, 1],
+            | Kernel::NormalMipsEncode
+            | Kernel::NormalisationCubeMapLookup
+            | Kernel::NormalisationCubeMapLookupInFace => [64, 1, 1],
         }
     }
 
@@ -99,6 +109,9 @@ impl Kernel {
             }
             Kernel::NormalMipsDecode | Kernel::NormalMips | Kernel::NormalMipsEncode => {
                 "entry/normal_mips.wesl"
+            }
+            Kernel::NormalisationCubeMapLookup | Kernel::NormalisationCubeMapLookupInFace => {
+                "entry/normalisation_cube_map_lookup.wesl"
             }
         }
     }
