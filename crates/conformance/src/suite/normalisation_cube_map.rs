@@ -303,7 +303,8 @@ impl CubeCase {
             note = format!("{note}; stated: rms {rms}°, largest {max}°");
             fails |= !got.are(rms, max);
         } else if !self.is_in_face() {
-            note = format!("{note}; less than within a face, since a sampler goes on across the edges of faces");
+            note =
+                format!("{note}; less than within a face, since a sampler goes on across the edges of faces");
         }
         if outcome.verdict != Verdict::Pass {
             return outcome;
