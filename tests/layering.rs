@@ -18,7 +18,6 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("reference", &["assets"]),
     ("scene", &["assets", "shaders", "reference"]),
     ("runner", &["translate"]),
-    ("embedded", &["translate", "bounds", "runner"]),
     (
         "conformance",
         &[
@@ -29,7 +28,6 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "reference",
             "scene",
             "runner",
-            "embedded",
         ],
     ),
     (
@@ -42,7 +40,6 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "reference",
             "scene",
             "runner",
-            "embedded",
             "conformance",
         ],
     ),
@@ -65,11 +62,6 @@ const NEVER: &[(&str, &[&str], &str)] = &[
         "translate",
         &["wgpu", "wesl"],
         "translation runs on machines without an adapter",
-    ),
-    (
-        "embedded",
-        &["wgpu", "wesl"],
-        "it is there for machines that have no driver",
     ),
     (
         "scene",

@@ -97,9 +97,12 @@ fn plan(library: &Library) -> Vec<(String, Target, Vec<AssembledShader>)> {
         );
     }
     for (name, set) in surfaces() {
-        let stages =
-            [Stage::Vertex, Stage::Fragment].map(|stage| library.assemble_surface(&set, stage).unwrap());
-        rows.extend(Target::ALL.iter().map(|&t| (name.to_owned(), t, stages.to_vec())));
+        let stages = set
+            .stages()
+            .iter()
+            .map(|&stage| library.assemble_surface(&set, stage).unwrap())
+            .collect::<Vec<_>>();
+        rows.extend(Target::ALL.iter().map(|&t| (name.to_owned(), t, stages.clone())));
     }
     rows
 }
@@ -158,7 +161,7 @@ fn length(contents: &Contents) -> usize {
 fn modules(library: &Library) -> Vec<AssembledShader> {
     let mut modules = std::collections::BTreeMap::new();
     for set in FeatureSet::reachable() {
-        for stage in [Stage::Vertex, Stage::Fragment] {
+        for &stage in set.stages() {
             let assembled = library
                 .assemble_surface(&set, stage)
                 .expect("every reachable set assembles");

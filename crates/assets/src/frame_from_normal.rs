@@ -3,8 +3,14 @@
 //! Hardened form: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017, with the sign selected by
 //! `z >= 0` (a `sign` function that answers 0 for 0 breaks the formula at the equator). No branches, no square root, no
 //! division by less than 1. The result is right-handed: B = cross(N, T), so w = +1.
+//!
+//! Published form (the article on parallax bump mapping): A = (n.y, −n.z, n.x), T = N × A, B = T × N, lengths and all. Its
+//! faults, kept: for N along (−1, 1, 1) A = −N and T = 0, a vertex without a frame; T is no unit vector; and B = T × N is
+//! −cross(N, T), so w = −1.
 
 use glam::Vec3;
+
+use crate::{Error, Mesh};
 
 /// Tangent and bitangent of a unit normal.
 ///
@@ -20,9 +26,43 @@ pub fn hardened(n: Vec3) -> (Vec3, Vec3) {
     (tangent, bitangent)
 }
 
+/// Tangent and bitangent as published: not of unit length, and zero for N along (−1, 1, 1).
+#[inline]
+#[must_use]
+pub fn published(n: Vec3) -> (Vec3, Vec3) {
+    let tangent = n.cross(Vec3::new(n.y, -n.z, n.x));
+    (tangent, tangent.cross(n))
+}
+
+/// Fills in every vertex' tangent in the hardened form, whatever its texture coordinates.
+///
+/// # Errors
+/// [`Error::Mesh`] when the mesh is not valid to begin with.
+pub fn generate_hardened(mesh: &mut Mesh) -> Result<(), Error> {
+    generate(mesh, |n| hardened(n).0.extend(1.0))
+}
+
+/// Fills in every vertex' tangent as published: T as it comes, w = −1.
+///
+/// # Errors
+/// [`Error::Mesh`] when the mesh is not valid to begin with.
+pub fn generate_published(mesh: &mut Mesh) -> Result<(), Error> {
+    generate(mesh, |n| published(n).0.extend(-1.0))
+}
+
+fn generate(mesh: &mut Mesh, tangent: impl Fn(Vec3) -> glam::Vec4) -> Result<(), Error> {
+    if mesh.normals.is_empty() {
+        mesh.smooth_normals();
+    }
+    mesh.validate()?;
+    mesh.tangents = mesh.normals.iter().map(|&n| tangent(n)).collect();
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
-    use super::hardened;
+    use super::{generate_hardened, generate_published, hardened, published};
+    use crate::primitives;
     use glam::{DVec3, Vec3};
     use proptest::prelude::*;
 
@@ -57,6 +97,30 @@ mod tests {
         ] {
             assert!(worst_error(n) <= BOUND, "{n}: {}", worst_error(n));
         }
+    }
+
+    #[test]
+    fn published_frames_are_left_handed_short_and_missing_on_an_axis() {
+        let n = Vec3::new(0.6, 0.0, 0.8);
+        let (t, b) = published(n);
+        // A = (0, −0.8, 0.6): T = N × A = (0.64, −0.36, −0.48), |T|² = 1 − (N·A)² = 1 − 0.48².
+        assert!((t - Vec3::new(0.64, -0.36, -0.48)).length() < 1e-6 && t.length() < 0.9);
+        assert!((b + n.cross(t)).length() < 1e-6);
+        assert_eq!(published(Vec3::new(-1.0, 1.0, 1.0)).0, Vec3::ZERO);
+    }
+
+    #[test]
+    fn meshes_get_a_frame_at_every_vertex() {
+        let mut mesh = primitives::sphere(1.0, 12, 6);
+        generate_hardened(&mut mesh).unwrap();
+        assert!(
+            mesh.tangents
+                .iter()
+                .zip(&mesh.normals)
+                .all(|(t, n)| t.w == 1.0 && t.truncate().dot(*n).abs() < 1e-6)
+        );
+        generate_published(&mut mesh).unwrap();
+        assert!(mesh.tangents.iter().all(|t| t.w == -1.0));
     }
 
     proptest! {

@@ -19,6 +19,8 @@ pub enum NormalMips {
     /// Averaged and renormalised; where the average vanishes, (0, 0, 1).
     #[default]
     Naive,
+    /// As published: averaged, and not normalised. Interfaces round at every level, here only what is written is rounded.
+    Averaged,
 }
 
 /// The averages of the decoded normals, level by level, the base first: not normalised, alpha in w.
@@ -55,6 +57,7 @@ fn encode(level: &Level, map: &NormalMap, rule: NormalMips) -> NormalMap {
     let texel = |t: &Vec4| {
         let n = match rule {
             NormalMips::Naive => t.truncate().try_normalize().unwrap_or(Vec3::Z),
+            NormalMips::Averaged => t.truncate(),
         };
         let [r, g, b] = n.to_array().map(|c| map.codec.encode(c));
         [r, g, b, (t.w * 255.0 + 0.5) as u8]
@@ -71,6 +74,23 @@ fn encode(level: &Level, map: &NormalMap, rule: NormalMips) -> NormalMap {
 mod tests {
     use super::*;
     use crate::NormalCodec;
+
+    #[test]
+    fn averaged_chains_keep_the_short_normals_that_naive_ones_stretch() {
+        let byte = |c: f32| NormalCodec::Biased.encode(c);
+        let texels = [0.8, -0.8].map(|x| [byte(x), byte(0.0), byte(0.6), 255]).to_vec();
+        let map = NormalMap {
+            width: 2,
+            height: 1,
+            codec: NormalCodec::Biased,
+            texels,
+        };
+        let top = |rule| chain(&map, rule)[1].decode(0, 0);
+        // 0.6 is written as 76/127 = 0.5984.
+        assert_eq!(top(NormalMips::Averaged), Vec3::new(0.0, 0.0, 76.0 / 127.0));
+        assert_eq!(top(NormalMips::Naive), Vec3::Z);
+        assert_eq!(chain(&map, NormalMips::Averaged)[0], map);
+    }
 
     #[test]
     fn lengths_tell_rough_from_smooth_where_normals_do_not() {

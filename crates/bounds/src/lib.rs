@@ -75,7 +75,6 @@ mod interval;
 mod kind;
 mod limits;
 pub mod ranges;
-mod readback;
 mod run;
 mod stage;
 mod texture;

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use bossage_scene::{Plan, Scene, Shape};
-use bossage_shaders::{AssembledShader, Library, Stage as Part};
+use bossage_shaders::{AssembledShader, Library};
 use bossage_translate::manifest::Entry;
 use bossage_translate::{EmitOptions, Shader, Source, Stage, manifest};
 use rayon::prelude::*;
@@ -221,7 +221,7 @@ pub(crate) fn entry(assembled: &AssembledShader) -> Result<Entry> {
 pub(crate) fn assemble(library: &Library, plan: &Plan) -> Result<Vec<AssembledShader>> {
     let mut modules = BTreeMap::new();
     for permutation in &plan.permutations {
-        for part in [Part::Vertex, Part::Fragment] {
+        for &part in permutation.features.stages() {
             let assembled = library.assemble_surface(&permutation.features, part)?;
             modules.insert(assembled.name.clone(), assembled);
         }
@@ -232,6 +232,12 @@ pub(crate) fn assemble(library: &Library, plan: &Plan) -> Result<Vec<AssembledSh
 /// The scene file and every file it names.
 pub(crate) fn files_of(scene: &Scene) -> BTreeSet<PathBuf> {
     let mut files = BTreeSet::from([scene.path.clone()]);
+    files.extend(
+        scene
+            .environment
+            .iter()
+            .flat_map(|environment| environment.paths.iter().cloned()),
+    );
     for material in &scene.materials {
         files.extend(material.albedo.map.as_ref().map(|(path, _)| path.clone()));
         files.extend(material.normal.as_ref().map(|normal| normal.path.clone()));

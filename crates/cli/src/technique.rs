@@ -5,19 +5,11 @@ use bossage_scene::{Scene, TechniquePin};
 use crate::error::{Error, Result};
 use crate::nearest::suggestion;
 
-/// What can be asked for.
-const NAMES: &[(&str, TechniquePin)] = &[
-    ("auto", TechniquePin::Auto),
-    ("none", TechniquePin::None),
-    ("parallax_offset", TechniquePin::ParallaxOffset),
-    ("parallax_offset_limited", TechniquePin::ParallaxOffsetLimited),
-];
-
 /// The technique of that name, or what it might have meant.
 pub(crate) fn named(name: &str) -> Result<TechniquePin> {
-    let known = NAMES.iter().find(|(known, _)| *known == name);
+    let known = TechniquePin::NAMES.iter().find(|(known, _)| *known == name);
     known.map(|(_, technique)| *technique).ok_or_else(|| {
-        let names: Vec<&str> = NAMES.iter().map(|(name, _)| *name).collect();
+        let names: Vec<&str> = TechniquePin::NAMES.iter().map(|(name, _)| *name).collect();
         Error::Call(format!(
             "unknown technique `{name}`; {}",
             suggestion(name, &names)
@@ -25,18 +17,14 @@ pub(crate) fn named(name: &str) -> Result<TechniquePin> {
     })
 }
 
-/// The scene with every height map drawn by that technique. A scene without a height map has nothing to draw by it.
+/// The scene with every material drawn by that technique that can be. A scene in which none can is refused.
 pub(crate) fn pinned(scene: &Scene, name: &str) -> Result<Scene> {
     let technique = named(name)?;
-    if scene.materials.iter().all(|material| material.height.is_none()) {
-        let path = scene.path.display();
-        return Err(Error::Call(format!(
-            "{path}: no material has a height map, so technique `{name}` has nothing to work on"
-        )));
-    }
-    let mut scene = scene.clone();
-    scene.pin_technique(technique);
-    Ok(scene)
+    let mut pinned = scene.clone();
+    pinned
+        .pin_technique(technique)
+        .map_err(|why| Error::Call(format!("{}: {why}", scene.path.display())))?;
+    Ok(pinned)
 }
 
 #[cfg(test)]

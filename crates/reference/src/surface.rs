@@ -1,20 +1,36 @@
 //! The whole surface shader in float64, evaluated at given interpolants.
 //!
 //! Order of the work, from the eye inward: frame from the interpolated vectors as they are (MikkTSpace style) → relief shift
-//! of the texture coordinates → alpha test → perturbed normal → lights. Colour = ambient · albedo + Σ radiance · (saturate(N·L) ·
-//! albedo + pow(saturate(N·H), p) · specular), linear; the sRGB encoding is a separate step.
+//! of the texture coordinates, with its occlusion of ambient light → alpha test → perturbed normal → light, by kind of shading →
+//! reflection. Linear; the sRGB encoding is a separate step. What each [`Shading`] adds up:
 //!
-//! Spaces: position, normal, tangent, eye and light positions in one lighting space (world or object).
+//! - `BlinnPhong`: ambient · ao · albedo + Σ radiance · (saturate(N·L) · albedo + pow(saturate(N·H), p) · specular);
+//! - `Emboss`: ambient · albedo + radiance · saturate(saturate(N·L) + h − h′) · albedo, the light's part only where the light is
+//!   above the polygon;
+//! - `WrapLambert`: the second article's factor · radiance · albedo;
+//! - `Dot3`: saturate(ambient + radiance · I) · albedo. The texture combiners of the third article saturate what they add, and
+//!   so does the target between two passes; with ambient light 0 and a white light of 1 it is the article's I · albedo.
 //!
-//! Limits: textures have one mip level; the rasteriser is not modelled, which is why the interpolants are inputs.
+//! Spaces: position, normal, tangent, eye and light positions in one lighting space (world or object); the environment is
+//! looked up in world space.
+//!
+//! Limits: textures have one mip level; the rasteriser is not modelled, which is why the interpolants are inputs. Displaced
+//! vertices show in the interpolants alone.
+
+mod light;
+#[cfg(test)]
+mod tests;
 
 use bossage_assets::EdgeMode;
 use glam::{DVec2, DVec3, DVec4};
 
+use crate::dot3_single_pass::Normaliser;
+use crate::environment_bump::{self, Environment};
 use crate::texture::Texture;
-use crate::vector::{normalize, normalize_or_zero, saturate};
+use crate::vector::{normalize, normalize_or_zero};
 use crate::{
-    Form, blinn_phong, frame_mikktspace, light_to_tangent, parallax_offset, parallax_offset_limited,
+    Form, frame_mikktspace, light_to_tangent, parallax_offset, parallax_offset_limited, parallax_slope_ao,
+    parallax_slope_ao_directed,
 };
 
 /// What the rasteriser hands to a fragment.
@@ -49,6 +65,15 @@ pub enum Light {
     },
 }
 
+/// From where the surface is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewer {
+    /// Position in lighting space.
+    pub eye: DVec3,
+    /// Unit vector against the viewing direction, one for all pixels: the published slope relief takes it for V.
+    pub backward: DVec3,
+}
+
 /// How texture coordinates are shifted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Relief {
@@ -74,6 +99,51 @@ pub enum Relief {
         /// Scale and bias are along u; along v they are this much larger (1 where the tile is square).
         v_factor: f64,
     },
+    /// [`crate::parallax_slope_ao`], or its directed form.
+    Slope {
+        /// Along the view, or along the texture's diagonal.
+        directed: bool,
+        /// Published or hardened.
+        form: Form,
+        /// Shift of a full slope, in UV units.
+        scale: f64,
+        /// The directed shift along v is this much larger (1 where the tile is square).
+        v_factor: f64,
+        /// Ambient light taken away by a unit of shift.
+        occlusion: f64,
+    },
+}
+
+/// What light does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shading {
+    /// [`crate::blinn_phong`], or Lambert's cosine where there is no highlight.
+    BlinnPhong,
+    /// [`crate::wrap_lambert`]; the ambient value is the ambient light's red.
+    WrapLambert,
+    /// [`crate::emboss`].
+    Emboss {
+        /// How far toward the light the second height is read, UV units.
+        step: f64,
+    },
+    /// [`crate::dot3_single_pass`], or one of the passes of [`crate::dot3_two_pass`].
+    Dot3 {
+        /// What makes a unit vector of the light vector.
+        normaliser: Normaliser,
+        /// Which draw.
+        pass: Pass,
+    },
+}
+
+/// Which draw of `dot3`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pass {
+    /// One for all.
+    Single,
+    /// Light, with alpha 1.
+    First,
+    /// The colour that is multiplied in.
+    Second,
 }
 
 /// A material with its textures.
@@ -97,6 +167,10 @@ pub struct Material {
     pub specular: Option<DVec3>,
     /// Exponent of the highlight.
     pub shininess: f64,
+    /// What light does.
+    pub shading: Shading,
+    /// What is mirrored and by which colour; `None` where nothing is.
+    pub reflection: Option<(Environment, DVec3)>,
     /// Alpha below this is discarded; `None` for opaque.
     pub alpha_cutoff: Option<f64>,
     /// Sampler's edge mode.
@@ -114,86 +188,134 @@ pub enum Fragment {
 
 /// Evaluates the surface at one fragment.
 #[must_use]
-pub fn shade(material: &Material, lights: &[Light], eye: DVec3, at: &Interpolants, form: Form) -> Fragment {
-    let view = unit(eye - at.position, form);
-    let uv = shifted_uv(material, at, view, form);
+pub fn shade(
+    material: &Material,
+    lights: &[Light],
+    viewer: &Viewer,
+    at: &Interpolants,
+    form: Form,
+) -> Fragment {
+    let view = unit(viewer.eye - at.position, form);
+    let Shifted {
+        uv,
+        ambient_occlusion,
+    } = shifted_uv(material, at, viewer, form);
     let albedo = material.albedo * sample(material.albedo_map.as_ref(), material.edge, uv, DVec4::ONE);
     if material.alpha_cutoff.is_some_and(|cutoff| albedo.w < cutoff) {
         return Fragment::Discarded;
     }
-    let normal = shading_normal(material, at, uv, form);
-    let base = material.ambient * albedo.truncate();
-    let color = lights.iter().fold(base, |sum, light| {
-        sum + lit(material, light, albedo.truncate(), normal, view, at, form)
-    });
-    Fragment::Color(color.extend(albedo.w))
+    let surface = light::Surface {
+        material,
+        at,
+        form,
+        uv,
+        ambient_occlusion,
+        albedo,
+        view,
+        bent: bent_normal(material, at, uv),
+    };
+    Fragment::Color(surface.lit(lights) + surface.mirrored().extend(0.0))
 }
 
-/// The texture coordinates after the relief shift.
+/// Where the maps are read, and how much ambient light arrives there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shifted {
+    /// The texture coordinates after the relief shift.
+    pub uv: DVec2,
+    /// The share of ambient light.
+    pub ambient_occlusion: f64,
+}
+
+/// The relief shift.
 #[must_use]
-pub fn shifted_uv(material: &Material, at: &Interpolants, view: DVec3, form: Form) -> DVec2 {
+pub fn shifted_uv(material: &Material, at: &Interpolants, viewer: &Viewer, form: Form) -> Shifted {
+    let view = unit(viewer.eye - at.position, form);
     let view_ts = unit(light_to_tangent::world(at.normal, at.tangent, view), form);
     let height = sample(material.height_map.as_ref(), material.edge, at.uv, DVec4::ZERO).x;
     let in_uv = |v_factor: f64| view_ts * DVec3::new(1.0, v_factor, 1.0);
+    let moved = |uv: DVec2| Shifted {
+        uv,
+        ambient_occlusion: 1.0,
+    };
     match material.relief {
-        Relief::None => at.uv,
+        Relief::None => moved(at.uv),
         Relief::Offset {
             form: Form::Published,
             scale,
             bias,
             v_factor,
-        } => parallax_offset::published(at.uv, in_uv(v_factor), height, scale, bias),
+        } => moved(parallax_offset::published(
+            at.uv,
+            in_uv(v_factor),
+            height,
+            scale,
+            bias,
+        )),
         Relief::Offset {
             form: Form::Hardened,
             scale,
             bias,
             v_factor,
-        } => parallax_offset::hardened(at.uv, in_uv(v_factor), height, scale, bias),
+        } => moved(parallax_offset::hardened(
+            at.uv,
+            in_uv(v_factor),
+            height,
+            scale,
+            bias,
+        )),
         Relief::OffsetLimited {
             scale,
             bias,
             v_factor,
-        } => parallax_offset_limited::offset(at.uv, in_uv(v_factor), height, scale, bias),
+        } => moved(parallax_offset_limited::offset(
+            at.uv,
+            in_uv(v_factor),
+            height,
+            scale,
+            bias,
+        )),
+        Relief::Slope {
+            directed,
+            form,
+            scale,
+            v_factor,
+            occlusion,
+        } => {
+            let n = bent_normal(material, at, at.uv);
+            let shift = match (directed, form) {
+                (true, _) => {
+                    let delta = parallax_slope_ao::delta_hardened(n, at.normal, view, height, scale);
+                    parallax_slope_ao_directed::shift(at.uv, in_uv(v_factor), delta, occlusion)
+                }
+                (false, Form::Published) => {
+                    let delta =
+                        parallax_slope_ao::delta_published(n, at.normal, viewer.backward, height, scale);
+                    parallax_slope_ao::published(at.uv, delta, occlusion)
+                }
+                (false, Form::Hardened) => {
+                    let delta = parallax_slope_ao::delta_hardened(n, at.normal, view, height, scale);
+                    parallax_slope_ao::hardened(at.uv, delta, occlusion)
+                }
+            };
+            Shifted {
+                uv: shift.uv,
+                ambient_occlusion: shift.ambient_occlusion,
+            }
+        }
     }
 }
 
-/// The unit normal that the lights see.
+/// The perturbed normal as it comes out of the frame, of any length.
 #[must_use]
-pub fn shading_normal(material: &Material, at: &Interpolants, uv: DVec2, form: Form) -> DVec3 {
-    let Some(map) = &material.normal_map else {
-        return unit(at.normal, form);
-    };
-    let texel = map.sample(material.edge, uv).truncate();
-    let normal_ts = texel * material.normal_decode.x + material.normal_decode.y;
-    unit(frame_mikktspace::combine(at.normal, at.tangent, normal_ts), form)
+pub fn bent_normal(material: &Material, at: &Interpolants, uv: DVec2) -> DVec3 {
+    material.normal_map.as_ref().map_or(at.normal, |map| {
+        frame_mikktspace::combine(at.normal, at.tangent, normal_ts(material, map, uv))
+    })
 }
 
-fn lit(
-    material: &Material,
-    light: &Light,
-    albedo: DVec3,
-    normal: DVec3,
-    view: DVec3,
-    at: &Interpolants,
-    form: Form,
-) -> DVec3 {
-    let (toward, radiance) = match *light {
-        Light::Directional { toward, radiance } => (toward, radiance),
-        Light::Point { position, radiance } => (unit(position - at.position, form), radiance),
-    };
-    let Some(specular) = material.specular else {
-        return radiance * saturate(normal.dot(toward)) * albedo;
-    };
-    let reflectance = blinn_phong::Reflectance {
-        diffuse: albedo,
-        specular,
-        shininess: material.shininess,
-    };
-    radiance
-        * match form {
-            Form::Published => blinn_phong::published(normal, toward, view, &reflectance),
-            Form::Hardened => blinn_phong::hardened(normal, toward, view, &reflectance),
-        }
+/// The map's normal, decoded, in tangent space.
+fn normal_ts(material: &Material, map: &Texture, uv: DVec2) -> DVec3 {
+    map.sample(material.edge, uv).truncate() * material.normal_decode.x + material.normal_decode.y
 }
 
 fn unit(v: DVec3, form: Form) -> DVec3 {
@@ -207,99 +329,10 @@ fn sample(texture: Option<&Texture>, edge: EdgeMode, uv: DVec2, otherwise: DVec4
     texture.map_or(otherwise, |texture| texture.sample(edge, uv))
 }
 
-#[cfg(test)]
-mod tests {
-    use bossage_assets::EdgeMode;
-    use glam::{DVec2, DVec3, DVec4};
-
-    use super::{Fragment, Interpolants, Light, Material, Relief, shade};
-    use crate::Form;
-    use crate::texture::Texture;
-
-    fn plain() -> Material {
-        Material {
-            albedo: DVec4::new(0.5, 0.25, 1.0, 1.0),
-            albedo_map: None,
-            normal_map: None,
-            normal_decode: DVec2::new(2.0, -1.0),
-            height_map: None,
-            relief: Relief::None,
-            ambient: DVec3::splat(0.5),
-            specular: None,
-            shininess: 1.0,
-            alpha_cutoff: None,
-            edge: EdgeMode::Wrap,
-        }
-    }
-
-    const FACING: Interpolants = Interpolants {
-        position: DVec3::ZERO,
-        normal: DVec3::Z,
-        tangent: DVec4::new(1.0, 0.0, 0.0, 1.0),
-        uv: DVec2::new(0.25, 0.25),
-    };
-    const SUN: Light = Light::Directional {
-        toward: DVec3::Z,
-        radiance: DVec3::ONE,
-    };
-
-    #[test]
-    fn ambient_and_a_light_from_the_front() {
-        let color = shade(&plain(), &[SUN], DVec3::Z, &FACING, Form::Hardened);
-        assert_eq!(color, Fragment::Color(DVec4::new(0.75, 0.375, 1.5, 1.0)));
-    }
-
-    #[test]
-    fn a_normal_map_turns_the_light_away() {
-        // Texel (255, 128+, 128+) decodes to n = (1, ~0, ~0): nearly along T, so the light from N barely reaches it.
-        let map = Texture {
-            width: 1,
-            height: 1,
-            texels: vec![DVec4::new(1.0, 0.5, 0.5, 1.0)],
-        };
-        let material = Material {
-            normal_map: Some(map),
-            ..plain()
-        };
-        let color = shade(&material, &[SUN], DVec3::Z, &FACING, Form::Hardened);
-        assert_eq!(color, Fragment::Color(DVec4::new(0.25, 0.125, 0.5, 1.0)));
-    }
-
-    #[test]
-    fn alpha_cuts() {
-        let material = Material {
-            alpha_cutoff: Some(0.5),
-            albedo: DVec4::new(1.0, 1.0, 1.0, 0.25),
-            ..plain()
-        };
-        assert_eq!(
-            shade(&material, &[], DVec3::Z, &FACING, Form::Hardened),
-            Fragment::Discarded
-        );
-    }
-
-    #[test]
-    fn relief_moves_the_lookup() {
-        let height_map = Texture::from_r32float(1, 1, &[1.0]);
-        let albedo_map = Texture::from_rgba8(2, 1, &[0, 0, 0, 255, 255, 255, 255, 255]);
-        let relief = Relief::OffsetLimited {
-            scale: 0.5 * 2f64.sqrt(),
-            bias: 0.0,
-            v_factor: 1.0,
-        };
-        let material = Material {
-            height_map: Some(height_map),
-            albedo_map: Some(albedo_map),
-            relief,
-            ..plain()
-        };
-        // The eye at 45° along +u shifts by scale · V.x = 0.5: from the black texel's centre to the white one's.
-        let Fragment::Color(color) =
-            shade(&material, &[], DVec3::new(1.0, 0.0, 1.0), &FACING, Form::Hardened)
-        else {
-            panic!("opaque material was cut");
-        };
-        // Weights next to 1 lose at most a few units of 2^-53.
-        assert!((color.x - 0.25).abs() < 1e-15);
+/// What the surface mirrors from the view by a normal of any length.
+fn reflected(view: DVec3, normal: DVec3, form: Form) -> DVec3 {
+    match form {
+        Form::Published => environment_bump::reflected_published(view, normal),
+        Form::Hardened => environment_bump::reflected_hardened(view, normal),
     }
 }

@@ -165,8 +165,7 @@ fn llvm_version(text: &str) -> Option<String> {
 }
 
 /// The CPU's model, from `/proc/cpuinfo`; where there is none, the architecture.
-#[must_use]
-pub fn cpu_model() -> String {
+fn cpu_model() -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     model_name(&text).unwrap_or_else(|| std::env::consts::ARCH.to_owned())
 }

@@ -42,7 +42,7 @@ pub struct Shader<'a> {
     pub entry: &'a Entry,
 }
 
-impl<'a> Shader<'a> {
+impl Shader<'_> {
     /// The binding of that name.
     #[must_use]
     pub fn binding(&self, name: &str) -> Option<&Binding> {
@@ -51,8 +51,7 @@ impl<'a> Shader<'a> {
 
     /// What the entry point is called in this code. WGSL is either the source, with the source's name, or emitted, with the
     /// name that the manifest states for it.
-    #[must_use]
-    pub fn entry_point(&self) -> &'a str {
+    pub(crate) fn entry_point(&self) -> &str {
         let emitted = self
             .entry
             .entry_points
@@ -65,8 +64,7 @@ impl<'a> Shader<'a> {
     }
 
     /// Where a binding is in this code: (group, binding).
-    #[must_use]
-    pub fn place(&self, binding: &Binding) -> (u32, u32) {
+    pub(crate) fn place(&self, binding: &Binding) -> (u32, u32) {
         match (self.code, binding.spirv) {
             (Code::Spirv(_), Some(slot)) => (slot.set, slot.binding),
             (Code::Spirv(_), None) | (Code::Wgsl(_), _) => (binding.group, binding.binding),

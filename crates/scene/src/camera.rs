@@ -74,17 +74,22 @@ impl Matrices {
         }
     }
 
+    /// A unit world-space direction in lighting space, unit.
+    #[must_use]
+    pub fn direction(&self, space: LightingSpace, direction_ws: DVec3) -> DVec3 {
+        match space {
+            LightingSpace::World => direction_ws,
+            LightingSpace::Object => self.local_from_world.transform_vector3(direction_ws).normalize(),
+        }
+    }
+
     /// The shader's `Light.vector` in lighting space: unit vector toward a directional light with w = 0, position of a
     /// point light with w = 1.
     #[must_use]
     pub fn light_vector(&self, space: LightingSpace, light: &Light) -> [f64; 4] {
-        let (vector, w) = match (light.kind, space) {
-            (LightKind::Directional { direction }, LightingSpace::World) => (-direction, 0.0),
-            (LightKind::Directional { direction }, LightingSpace::Object) => (
-                self.local_from_world.transform_vector3(-direction).normalize(),
-                0.0,
-            ),
-            (LightKind::Point { position }, space) => (self.point(space, position), 1.0),
+        let (vector, w) = match light.kind {
+            LightKind::Directional { direction } => (self.direction(space, -direction), 0.0),
+            LightKind::Point { position } => (self.point(space, position), 1.0),
         };
         vector.extend(w).to_array()
     }

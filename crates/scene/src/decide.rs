@@ -3,11 +3,14 @@
 //! Every rule states what it measured. The decisions and the canonical feature set agree: what is dropped here is not in the
 //! permutation, and what is kept is.
 
-use bossage_shaders::{Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Transform};
+use bossage_shaders::{
+    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser as Normalises, Relief,
+    Shading, Transform,
+};
 use glam::DVec3;
 
 use crate::facts::{MaterialFacts, has_mirrored_uv};
-use crate::model::{AlphaMode, Light, LightKind, Material, Object, Scene, TechniquePin};
+use crate::model::{AlphaMode, Light, LightKind, Material, Normaliser, Object, Scene, TechniquePin};
 use crate::plan::{Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Predicted, State};
 use crate::relief;
 use crate::views::View;
@@ -82,84 +85,102 @@ pub(crate) fn material(scene: &Scene, views: &[View], index: usize) -> MaterialP
         facts: MaterialFacts::of(material),
         objects: used().map(|(object, _)| object).collect(),
         views: used().map(|(_, view)| view).collect(),
-        active_lights: scene.lights.iter().filter(|light| !light.is_black()).collect(),
+        active_lights: scene.active_lights().collect(),
     };
     subject.plan()
 }
 
 impl Subject<'_> {
     fn plan(&self) -> MaterialPlan {
-        let mut features = FeatureSet {
+        let mut asked = FeatureSet {
             lights: self.lights(),
+            shading: self.material.shading,
+            normaliser: match self.material.normaliser {
+                Normaliser::Arithmetic => Normalises::Arithmetic,
+                Normaliser::Cube(_) => Normalises::Cube,
+            },
             form: self.material.form,
             space: self.material.lighting_space,
             ..FeatureSet::default()
         };
         let lighting = self.lighting();
-        let light_vector = self.light_vector(features.lights);
+        let light_vector = self.light_vector(asked.lights);
         let light_loop = self.light_loop();
         let specular = self.specular(lighting.kept);
-        features.specular = specular.kept;
-        let normal_map = self.normal_map(lighting.kept);
-        features.normal = if normal_map.kept {
-            NormalSource::Map
-        } else {
-            NormalSource::Geometric
-        };
+        asked.specular = specular.kept;
+        let environment = self.environment();
+        asked.environment = environment.kept;
+        let normal_map = self.normal_map(lighting.kept, environment.kept);
+        asked.normal = chosen(normal_map.kept, NormalSource::Map, NormalSource::Geometric);
         let (alpha_discard, drawn) = self.alpha_discard();
-        features.alpha = if alpha_discard.kept {
-            Alpha::Mask
-        } else {
-            Alpha::Opaque
-        };
+        asked.alpha = chosen(alpha_discard.kept, Alpha::Mask, Alpha::Opaque);
         let albedo_map = self.albedo_map(lighting.kept, alpha_discard.kept);
-        features.albedo = if albedo_map.kept {
-            Albedo::Map
-        } else {
-            Albedo::Constant
-        };
+        asked.albedo = chosen(albedo_map.kept, Albedo::Map, Albedo::Constant);
         let relief = relief::decide(self, normal_map.kept || albedo_map.kept);
-        features.relief = relief.technique;
-        features.space = self.effective_space(&features);
+        asked.relief = relief.technique;
+        let emboss = self.emboss();
+        let mut features = FeatureSet {
+            shading: chosen(
+                self.material.shading == Shading::Emboss && !emboss.kept,
+                Shading::BlinnPhong,
+                asked.shading,
+            ),
+            ..asked
+        }
+        .canonical();
         let cofactor = self.cofactor_matrix(&features);
-        features.transform = if cofactor.kept {
-            Transform::General
-        } else {
-            Transform::Rigid
-        };
+        features.transform = chosen(cofactor.kept, Transform::General, Transform::Rigid);
         features.mirrored_uv =
             features.has_tangent() && self.objects.iter().any(|object| has_mirrored_uv(&object.mesh));
         let handedness = self.handedness(&features);
         let features = features.canonical();
-        let effects = vec![
-            lighting.into_effect(EffectId::Lighting),
-            light_vector.into_effect(EffectId::LightVector),
-            light_loop.into_effect(EffectId::LightLoop),
-            specular.into_effect(EffectId::Specular),
-            normal_map.into_effect(EffectId::NormalMap),
-            albedo_map.into_effect(EffectId::AlbedoMap),
-            alpha_discard.into_effect(EffectId::AlphaDiscard),
-            relief.decision.into_effect(EffectId::Relief),
-            cofactor.into_effect(EffectId::CofactorMatrix),
-            handedness.into_effect(EffectId::Handedness),
+        let effects = [
+            (EffectId::Lighting, lighting),
+            (EffectId::LightVector, light_vector),
+            (EffectId::LightLoop, light_loop),
+            (EffectId::Specular, specular),
+            (EffectId::Environment, environment),
+            (EffectId::NormalMap, normal_map),
+            (EffectId::NormalisationCube, self.normalisation_cube()),
+            (EffectId::AlbedoMap, albedo_map),
+            (EffectId::AlphaDiscard, alpha_discard),
+            (EffectId::Relief, relief.decision),
+            (EffectId::AmbientOcclusion, self.ambient_occlusion()),
+            (EffectId::Emboss, emboss),
+            (EffectId::Displacement, self.displacement()),
+            (EffectId::SecondPass, self.second_pass()),
+            (EffectId::CofactorMatrix, cofactor),
+            (EffectId::Handedness, handedness),
         ];
         MaterialPlan {
             name: self.material.name.clone(),
             technique: relief::id(features.relief),
-            technique_by: if self.material.technique == TechniquePin::Auto {
-                "auto"
-            } else {
-                "pinned"
-            },
+            technique_by: chosen(self.material.technique == TechniquePin::Auto, "auto", "pinned"),
+            shading: features.shading.as_str(),
+            shading_by: chosen(self.material.shading == Shading::BlinnPhong, "auto", "pinned"),
             permutation: features.name(),
             features,
+            everything: self.everything(&asked, &features),
             drawn,
-            effects,
+            effects: effects
+                .into_iter()
+                .map(|(id, decision)| decision.into_effect(id))
+                .collect(),
             predicted: relief.predicted,
             choice: relief.choice,
             objects: self.object_views(),
             notes: self.notes(&features),
         }
+    }
+
+    /// Everything on that goes with what was asked for: with a pinned shading even where the plan drops it, since that is what
+    /// has to be shown to change nothing.
+    fn everything(&self, asked: &FeatureSet, planned: &FeatureSet) -> FeatureSet {
+        FeatureSet {
+            shading: asked.shading,
+            ..*planned
+        }
+        .all_effects()
     }
 
     fn object_views(&self) -> Vec<ObjectView> {
@@ -180,6 +201,15 @@ impl Subject<'_> {
                 "lighting_space = \"object\" is defined for one light; with several, world space is used"
                     .to_owned(),
             );
+        }
+        if self.material.lighting_space == LightingSpace::Object && features.environment {
+            notes.push(
+                "the environment is mirrored in world space, so lighting_space = \"object\" is not used"
+                    .to_owned(),
+            );
+        }
+        if self.material.form == Form::Published && features.has_normal() && features.form == Form::Hardened {
+            notes.push("through a normalisation cube map `dot3` has one form: `form = \"published\"` changes only tangents".to_owned());
         }
         notes
     }
@@ -242,19 +272,8 @@ impl Subject<'_> {
         }
     }
 
-    fn specular(&self, lit: bool) -> Decision {
-        let specular = self.material.specular;
-        let facts = evidence([("specular", Fact::Numbers(specular.to_array().to_vec()))]);
-        if specular.as_vec3() == glam::Vec3::ZERO {
-            Decision::dropped("specular is 0: no half vector", facts)
-        } else if !lit {
-            Decision::dropped("nothing to reflect: there is no light", facts)
-        } else {
-            Decision::kept("specular is not 0", facts)
-        }
-    }
-
-    fn normal_map(&self, lit: bool) -> Decision {
+    fn normal_map(&self, lit: bool, mirrors: bool) -> Decision {
+        let (shading, technique) = (self.material.shading, self.material.technique);
         let Some(normal) = self.facts.normal else {
             return Decision::dropped("the material has none", Evidence::new());
         };
@@ -264,12 +283,23 @@ impl Subject<'_> {
             ("max_off_flat", Fact::Number(normal.max_off_flat)),
             ("codec_half_quantum", Fact::Number(normal.half_quantum)),
         ]);
-        if normal.is_flat() {
+        if shading == Shading::Emboss {
+            Decision::dropped("embossing stands in for it", facts)
+        } else if technique == TechniquePin::Displacement {
+            Decision::dropped("displaced vertices have normals of their own", facts)
+        } else if lit && shading.is_dot3() {
+            Decision::kept(
+                format!("`{}` reads it, whatever it holds", shading.as_str()),
+                facts,
+            )
+        } else if technique.relief().is_some_and(Relief::is_slope) {
+            Decision::kept(format!("`{}` reads slopes from it", technique.as_str()), facts)
+        } else if normal.is_flat() {
             Decision::dropped(
                 "every normal is (0, 0, 1) as near as the codec can write it",
                 facts,
             )
-        } else if !lit {
+        } else if !lit && !mirrors {
             Decision::dropped("there is no light for it to change", facts)
         } else if normal.constant {
             Decision::kept(
@@ -345,13 +375,6 @@ impl Subject<'_> {
         }
     }
 
-    fn effective_space(&self, features: &FeatureSet) -> LightingSpace {
-        match features.lights {
-            Lights::Many => LightingSpace::World,
-            Lights::None | Lights::Directional | Lights::Point => self.material.lighting_space,
-        }
-    }
-
     /// Without the cofactor matrix the shader carries directions by the object's matrix and does not normalise them there. A
     /// lone normal may come out at any length; a tangent frame keeps its proportions only at unit length, and its
     /// handedness only without a reflection.
@@ -379,7 +402,8 @@ impl Subject<'_> {
             )
         } else if !stretched.is_empty() {
             Decision::kept(format!("scale differs by axis: {}", stretched.join(", ")), facts)
-        } else if features.has_tangent() && !mirrored.is_empty() {
+        } else if (features.has_tangent() || features.relief == Relief::Displacement) && !mirrored.is_empty()
+        {
             Decision::kept(
                 format!("mirrored, with a tangent frame: {}", mirrored.join(", ")),
                 facts,
@@ -408,7 +432,7 @@ impl Subject<'_> {
         if !features.has_tangent() {
             Decision::dropped("no tangent frame is used", facts)
         } else if features.mirrored_uv {
-            Decision::kept("some triangles carry their texture mirrored", facts)
+            Decision::kept("some vertices have a left-handed frame (mirrored texture)", facts)
         } else if features.has_handedness() {
             Decision::kept(
                 "a general transform may mirror: the sign of its determinant goes along",
@@ -426,6 +450,11 @@ impl Subject<'_> {
             .map(|object| object.name.clone())
             .collect()
     }
+}
+
+/// One of two, by a condition.
+fn chosen<T>(first: bool, one: T, other: T) -> T {
+    if first { one } else { other }
 }
 
 pub(crate) fn count(n: usize) -> Fact {

@@ -1,8 +1,8 @@
 //! What to draw: per object its mesh, feature set, uniforms by the shader's names and textures.
 //!
 //! Every draw carries *all* uniforms and textures that any feature set could ask for, neutral where the material has none: a
-//! flat normal, height 0 with relief 0, white albedo, lights of radiance 0, cutoff 0, a black surrounding. So one list serves the planned shader
-//! and the all-effects shader alike, and both describe the same surface.
+//! flat normal, height 0 with relief 0, white albedo, lights of radiance 0, cutoff 0, black surroundings. So one list serves
+//! the planned shader and the all-effects shader alike, and both describe the same surface.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -13,10 +13,11 @@ use glam::{DMat4, DVec3, DVec4};
 
 use crate::camera::Matrices;
 use crate::facts::MaterialFacts;
-use crate::model::{AlphaMode, Elevation, Light, Material, Object, Scene, TechniquePin};
+use crate::model::{AlphaMode, Elevation, Light, Material, Normaliser, Object, ReflectionPin, Scene};
 use crate::plan::Plan;
 use crate::schema::MAX_LIGHTS;
 use crate::textures::Texture;
+use crate::tile::Tile;
 
 /// One object with all a renderer needs.
 #[derive(Clone, Debug)]
@@ -55,7 +56,12 @@ fn build(
     features: &dyn Fn(usize) -> FeatureSet,
     drawn: &dyn Fn(&Object) -> bool,
 ) -> Vec<Draw> {
-    let prepared: Vec<Prepared> = scene.materials.iter().map(Prepared::new).collect();
+    let environment = scene
+        .environment
+        .as_ref()
+        .map(|environment| Arc::new(Texture::environment(&environment.map)));
+    let prepare = |material| Prepared::new(material, environment.as_ref());
+    let prepared: Vec<Prepared> = scene.materials.iter().map(prepare).collect();
     let draw = |object: &Object| {
         let prepared = &prepared[object.material];
         let features = features(object.material);
@@ -85,7 +91,7 @@ struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    fn new(material: &'a Material) -> Self {
+    fn new(material: &'a Material, environment: Option<&Arc<Texture>>) -> Self {
         let albedo = material
             .albedo
             .map
@@ -94,25 +100,32 @@ impl<'a> Prepared<'a> {
         let normal = material
             .normal
             .as_ref()
-            .map_or_else(flat_normal, |normal| Texture::normal(&normal.map));
+            .map_or_else(flat_normal, |normal| Texture::normal(&normal.map, normal.mips));
         let height = material.height.as_ref().map_or_else(
             || Texture::constant_height(0.0),
             |height| Texture::height(&height.field),
         );
+        let normalisation = match &material.normaliser {
+            Normaliser::Arithmetic => Texture::smallest_normalisation(),
+            Normaliser::Cube(map) => Texture::normalisation(map),
+        };
         let textures = [
             ("albedo_map", albedo),
             ("normal_map", normal),
             ("height_map", height),
-            (
-                "environment_map",
-                Texture::constant_environment([0.0, 0.0, 0.0, 1.0]),
-            ),
-            ("normalisation_map", Texture::smallest_normalisation()),
+            ("normalisation_map", normalisation),
         ];
-        let textures = textures
+        let mut textures: BTreeMap<String, Arc<Texture>> = textures
             .into_iter()
             .map(|(name, texture)| (name.to_owned(), Arc::new(texture)))
             .collect();
+        // What mirrors nothing has nothing around it, whatever shader draws it.
+        let black = || Arc::new(Texture::constant_environment([0.0, 0.0, 0.0, 1.0]));
+        let mirrored = environment.filter(|_| material.reflection != ReflectionPin::None);
+        textures.insert(
+            "environment_map".to_owned(),
+            mirrored.cloned().unwrap_or_else(black),
+        );
         Self {
             material,
             facts: MaterialFacts::of(material),
@@ -145,6 +158,10 @@ fn uniforms(
     let mut all = object_uniforms(&matrices);
     let eye = matrices.point(features.space, scene.camera.position);
     all.insert("view.eye".to_owned(), padded(eye, 1.0));
+    let backward = (scene.camera.position - scene.camera.target).normalize();
+    let backward = matrices.direction(features.space, backward);
+    all.insert("view.backward".to_owned(), padded(backward, 0.0));
+    all.insert("object.displacement".to_owned(), displacement(object, prepared));
     all.extend(light_uniforms(&matrices, &lights, features));
     all.extend(material_uniforms(scene, prepared, features));
     all
@@ -228,7 +245,9 @@ fn material_uniforms(
             specular.as_vec4().to_array().to_vec(),
         ),
         ("material.shininess".to_owned(), vec![material.shininess as f32]),
-        ("material.relief".to_owned(), relief(prepared)),
+        ("material.relief".to_owned(), relief(prepared, features)),
+        ("material.occlusion".to_owned(), vec![material.occlusion as f32]),
+        ("material.emboss_step".to_owned(), vec![emboss_step(material)]),
         ("material.alpha_cutoff".to_owned(), vec![cutoff as f32]),
         (
             "material.normal_decode".to_owned(),
@@ -254,25 +273,52 @@ fn folded(prepared: &Prepared<'_>) -> DVec4 {
 }
 
 /// Scale and bias along u, then the factor by which both differ along v (tiles that are not square). Zero where there is no
-/// relief, and where heights are constant: such a surface is the polygon itself (see the schema), unless the scene pins a
-/// technique.
-fn relief(prepared: &Prepared<'_>) -> Vec<f32> {
-    let is_plane = prepared.facts.height.is_none_or(|height| height.is_constant())
-        && prepared.material.technique == TechniquePin::Auto;
+/// relief: without heights, where none is pinned or another kind than the shader's is, and where heights are constant (such a
+/// surface is the polygon itself, see the schema) unless the scene pins a technique.
+fn relief(prepared: &Prepared<'_>, features: &FeatureSet) -> Vec<f32> {
+    let technique = prepared.material.technique;
+    let is_plane = match technique.relief() {
+        None => {
+            let constant = prepared.facts.height.is_none_or(|height| height.is_constant());
+            constant || features.relief.is_slope()
+        }
+        Some(pinned) => pinned != features.relief,
+    };
     match &prepared.material.height {
         Some(height) if !is_plane => {
             let Elevation { scale, bias } = height.elevation;
-            [
-                scale.x,
-                bias.x,
-                if scale.x == 0.0 { 1.0 } else { scale.y / scale.x },
-                0.0,
-            ]
-            .map(|x| x as f32)
-            .to_vec()
+            let v_factor = if scale.x == 0.0 { 1.0 } else { scale.y / scale.x };
+            [scale.x, bias.x, v_factor, 0.0].map(|x| x as f32).to_vec()
         }
         Some(_) | None => vec![0.0, 0.0, 1.0, 0.0],
     }
+}
+
+/// The texels toward the light in texture coordinates of the longer side.
+fn emboss_step(material: &Material) -> f32 {
+    let side = material
+        .height
+        .as_ref()
+        .map_or(1, |height| height.field.width.max(height.field.height));
+    (material.emboss_texels / f64::from(side)) as f32
+}
+
+/// Scale and bias in the object's units, then the lengths of a tile along u and v. Nothing moves without heights, or without
+/// texture coordinates.
+fn displacement(object: &Object, prepared: &Prepared<'_>) -> Vec<f32> {
+    let tile = Tile::of(&object.mesh);
+    let (Some(height), Some(tile)) = (&prepared.material.height, tile) else {
+        return vec![0.0, 0.0, 1.0, 1.0];
+    };
+    let Elevation { scale, bias } = height.elevation;
+    [
+        scale.x * tile.side.x,
+        bias.x * tile.side.x,
+        tile.side.x,
+        tile.side.y,
+    ]
+    .map(|x| x as f32)
+    .to_vec()
 }
 
 fn padded(v: DVec3, w: f64) -> Vec<f32> {

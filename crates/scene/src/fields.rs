@@ -257,11 +257,6 @@ impl<'t> Value<'t> {
         self.numbers::<3>(bound).map(DVec3::from_array)
     }
 
-    /// A key of this value if it is a table, without marking anything as read.
-    pub(crate) fn peek(&self, key: &str) -> Option<&'t Spanned<DeValue<'t>>> {
-        self.value.get(key)
-    }
-
     /// Whether this is an array, for fields of more than one shape.
     pub(crate) fn is_array(&self) -> bool {
         matches!(self.value, DeValue::Array(_))

@@ -45,22 +45,27 @@
 mod camera;
 mod choose;
 mod decide;
+mod decide_shading;
 mod draw;
 mod error;
 mod facts;
 mod fields;
 mod files;
 mod load;
+mod load_environment;
 mod load_material;
+mod load_normal;
 mod load_object;
 mod model;
 mod plan;
 mod predict;
 mod relief;
+mod rules;
 pub mod schema;
 mod suggest;
 mod table;
 mod textures;
+mod tile;
 mod views;
 
 pub use camera::Matrices;
@@ -70,8 +75,9 @@ pub use error::{Error, Problem, Report};
 pub use facts::{AlbedoFacts, HeightFacts, MaterialFacts, NormalFacts};
 pub use load::{load, load_str};
 pub use model::{
-    AlbedoSource, AlphaMode, Budget, Camera, Elevation, HeightSource, Light, LightKind, Material,
-    NormalSource, Object, Scene, Shape, Tangents, TechniquePin, Transform,
+    AlbedoSource, AlphaMode, Budget, Camera, Elevation, Environment, HeightSource, Light, LightKind,
+    Material, NormalSource, Normaliser, Object, ReflectionPin, Scene, Shape, Tangents, TechniquePin,
+    Transform,
 };
 pub use plan::{
     Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Permutation, Plan, Predicted, State, plan,

@@ -14,7 +14,7 @@ use crate::fields::{ANY, Bound, NOT_NEGATIVE, POSITIVE, Sink, Table, Value};
 use crate::files::Files;
 use crate::model::{Budget, Camera, Light, LightKind, Scene};
 use crate::schema;
-use crate::{load_material, load_object};
+use crate::{load_environment, load_material, load_object, rules};
 
 const FOV: Bound = Bound {
     allows: |x| x > 0.0 && x < 180.0,
@@ -88,8 +88,19 @@ fn scene(path: &Path, root: &Table<'_>) -> Option<Scene> {
         budget,
     );
     let lights = lights(root);
+    let environment = root.or("environment", None, |value| {
+        load_environment::environment(value, &files).map(Some)
+    });
     let materials = named_list(root, "materials", |table| load_material::material(table, &files));
     let objects = load_object::objects(root, materials.as_deref(), &files);
+    if let (Some(materials), Some(lights), Some(ambient)) = (&materials, &lights, ambient) {
+        let surroundings = rules::Surroundings {
+            lights,
+            ambient,
+            has_environment: root.get("environment").is_some(),
+        };
+        rules::check(root, materials, &surroundings);
+    }
     root.finish();
     let (materials, objects) = (materials?, objects?);
     version?;
@@ -98,6 +109,7 @@ fn scene(path: &Path, root: &Table<'_>) -> Option<Scene> {
         camera: camera?,
         ambient: ambient?,
         lights: lights?,
+        environment: environment?,
         materials,
         objects,
         budget: budget?,

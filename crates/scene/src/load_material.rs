@@ -3,16 +3,18 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use bossage_assets::height_to_normal::{self, Bake};
-use bossage_assets::{Channel, ColorMap, EdgeMode, HeightField, NormalCodec, NormalMap};
-use bossage_shaders::{Form, LightingSpace};
+use bossage_assets::normalisation_cube_map::Depth;
+use bossage_assets::{Channel, ColorMap, EdgeMode, HeightField, NormalisationCubeMap};
+use bossage_shaders::{Form, LightingSpace, Shading};
 use glam::{DVec2, DVec4};
 
 use crate::fields::{ANY, Bound, NOT_NEGATIVE, POSITIVE, Table, UNIT, UNIT_NOT_ZERO, Value};
 use crate::files::{Files, chain};
 use crate::load::{Named, refuse};
+use crate::load_normal::{self, Heights};
 use crate::model::{
-    AlbedoSource, AlphaMode, Elevation, HeightSource, Material, NormalSource, Tangents, TechniquePin,
+    AlbedoSource, AlphaMode, Elevation, HeightSource, Material, Normaliser, ReflectionPin, Tangents,
+    TechniquePin,
 };
 use crate::schema;
 
@@ -28,25 +30,22 @@ const ADDRESS: [(&str, EdgeMode); 3] = [
 const FORM: [(&str, Form); 2] = [("hardened", Form::Hardened), ("published", Form::Published)];
 const SPACE: [(&str, LightingSpace); 2] =
     [("world", LightingSpace::World), ("object", LightingSpace::Object)];
-const TANGENTS: [(&str, Tangents); 2] = [
+const TANGENTS: [(&str, Tangents); 3] = [
     ("mikktspace", Tangents::MikkTSpace),
     ("from_uv", Tangents::FromUv),
+    ("from_normal", Tangents::FromNormal),
 ];
-const CODEC: [(&str, NormalCodec); 2] = [("unorm", NormalCodec::Unorm), ("biased", NormalCodec::Biased)];
+const REFLECTION: [(&str, ReflectionPin); 3] = [
+    ("auto", ReflectionPin::Auto),
+    ("none", ReflectionPin::None),
+    ("environment_bump", ReflectionPin::EnvironmentBump),
+];
 const CHANNEL: [(&str, Channel); 5] = [
     ("red", Channel::Red),
     ("green", Channel::Green),
     ("blue", Channel::Blue),
     ("alpha", Channel::Alpha),
     ("luminance", Channel::Luminance),
-];
-
-/// The words of `technique`, also those of the command line's `--technique`.
-pub(crate) const TECHNIQUE: [(&str, TechniquePin); 4] = [
-    ("auto", TechniquePin::Auto),
-    ("none", TechniquePin::None),
-    ("parallax_offset", TechniquePin::ParallaxOffset),
-    ("parallax_offset_limited", TechniquePin::ParallaxOffsetLimited),
 ];
 
 impl Named for Material {
@@ -72,17 +71,31 @@ pub(crate) fn material(table: &Table<'_>, files: &Files) -> Option<Material> {
         given: table.get("height").is_some(),
         read: height.as_ref().and_then(Option::as_ref).zip(address),
     };
-    let normal = table.or("normal", None, |v| normal(v, files, &heights).map(Some));
+    let form = table.or("form", Form::Hardened, |v| v.word(&FORM));
+    let normal = table.or("normal", None, |v| {
+        load_normal::normal(v, files, &heights, form).map(Some)
+    });
     let specular = table.or("specular", schema::SPECULAR, |v| v.vec3(NOT_NEGATIVE));
     let shininess = table.or("shininess", schema::SHININESS, |v| v.number(SHININESS));
-    let alpha = table.or("alpha", AlphaMode::Opaque, alpha);
-    let technique = table.or("technique", TechniquePin::Auto, |v| v.word(&TECHNIQUE));
-    let form = table.or("form", Form::Hardened, |v| v.word(&FORM));
+    let shading = table.or("shading", Shading::BlinnPhong, |v| {
+        v.word(&Shading::ALL.map(|shading| (shading.as_str(), shading)))
+    });
+    let uncut = match shading {
+        Some(Shading::WrapLambert) => AlphaMode::Mask {
+            cutoff: schema::WRAP_ALPHA_CUTOFF,
+        },
+        Some(Shading::BlinnPhong | Shading::Emboss | Shading::Dot3SinglePass | Shading::Dot3TwoPass)
+        | None => AlphaMode::Opaque,
+    };
+    let alpha = table.or("alpha", uncut, alpha);
+    let technique = table.or("technique", TechniquePin::Auto, |v| v.word(&TechniquePin::NAMES));
+    let occlusion = table.or("occlusion", schema::OCCLUSION, |v| v.number(NOT_NEGATIVE));
+    let normaliser = table.or("normaliser", Normaliser::Arithmetic, |v| normaliser(v, shading));
+    let emboss_texels = table.or("emboss_texels", schema::EMBOSS_TEXELS, |v| v.number(POSITIVE));
+    let reflection = table.or("reflection", ReflectionPin::Auto, |v| v.word(&REFLECTION));
     let lighting_space = table.or("lighting_space", LightingSpace::World, |v| v.word(&SPACE));
     let tangents = table.or("tangents", Tangents::MikkTSpace, |v| v.word(&TANGENTS));
     table.finish();
-    let technique = technique?;
-    check_pin(table, technique);
     Some(Material {
         name: name?.to_owned(),
         albedo: albedo?,
@@ -92,38 +105,68 @@ pub(crate) fn material(table: &Table<'_>, files: &Files) -> Option<Material> {
         shininess: shininess?,
         alpha: alpha?,
         address: address?,
-        technique,
+        technique: technique?,
+        occlusion: occlusion?,
+        shading: shading?,
+        normaliser: normaliser?,
+        emboss_texels: emboss_texels?,
+        reflection: reflection?,
         form: form?,
         lighting_space: lighting_space?,
         tangents: tangents?,
     })
 }
 
-/// A pinned relief technique needs heights to follow and a map to displace.
-fn check_pin(table: &Table<'_>, technique: TechniquePin) {
-    let pinned = match technique {
-        TechniquePin::Auto | TechniquePin::None => return,
-        TechniquePin::ParallaxOffset => "parallax_offset",
-        TechniquePin::ParallaxOffsetLimited => "parallax_offset_limited",
+/// What `dot3` normalises with; no other shading normalises anything.
+fn normaliser(value: &Value<'_>, shading: Option<Shading>) -> Option<Normaliser> {
+    let table = value.table()?;
+    let kind = table
+        .need("kind", "`kind`: `arithmetic` or `cube`")
+        .and_then(|v| v.word(&[("arithmetic", false), ("cube", true)]));
+    let made = match kind {
+        Some(true) => cube_map(&table),
+        Some(false) => {
+            let hint = "remove it, or set kind to `cube`";
+            refuse(&table, "size", "the arithmetic normaliser has no size", hint);
+            refuse(&table, "bits", "the arithmetic normaliser has no bits", hint);
+            Some(Normaliser::Arithmetic)
+        }
+        None => {
+            let _ = (table.get("size"), table.get("bits"));
+            None
+        }
     };
-    let Some(place) = table.get("technique") else {
-        return;
-    };
-    if table.get("height").is_none() {
-        let height = table.path_of("height");
-        place.note(
-            format!("`{pinned}` needs `{height}`"),
-            format!("add `{height}` with a map, or set technique to `auto`"),
+    table.finish();
+    if let Some(shading) = shading.filter(|shading| !shading.is_dot3()) {
+        value.note(
+            format!("shading `{}` has no normaliser", shading.as_str()),
+            "remove it, or set shading to `dot3_single_pass` or `dot3_two_pass`",
         );
+        return None;
     }
-    let has_albedo_map = table.get("albedo").and_then(|value| value.peek("map")).is_some();
-    if !has_albedo_map && table.get("normal").is_none() {
-        let (albedo, normal) = (table.path_of("albedo.map"), table.path_of("normal"));
-        place.note(
-            format!("`{pinned}` has nothing to displace: there is neither `{albedo}` nor `{normal}`"),
-            format!("add `{albedo}` or `{normal}`, or set technique to `auto`"),
-        );
-    }
+    made
+}
+
+fn cube_map(table: &Table<'_>) -> Option<Normaliser> {
+    let size = table
+        .need("size", "`size`, the texels along an edge of the cube map")
+        .and_then(|v| v.whole(schema::NORMALISER_SIZE));
+    let depth = table.or("bits", Depth::Eight, |v| match v.whole(8..=16)? {
+        8 => Some(Depth::Eight),
+        16 => Some(Depth::Sixteen),
+        other => {
+            v.note(
+                format!("{other} bits a component cannot be had"),
+                "must be 8 or 16",
+            );
+            None
+        }
+    });
+    let (size, depth) = (size?, depth?);
+    let map = NormalisationCubeMap::generate(size, depth)
+        .map_err(|error| table.note(chain(&error), "make it smaller"))
+        .ok()?;
+    Some(Normaliser::Cube(Arc::new(map)))
 }
 
 fn albedo(value: &Value<'_>, files: &Files) -> Option<AlbedoSource> {
@@ -156,76 +199,8 @@ fn color_map(value: &Value<'_>, files: &Files) -> Option<(PathBuf, Arc<ColorMap>
 }
 
 /// The asset, or its error noted at the field.
-fn asset<T>(value: &Value<'_>, made: Result<T, bossage_assets::Error>, hint: &str) -> Option<T> {
+pub(crate) fn asset<T>(value: &Value<'_>, made: Result<T, bossage_assets::Error>, hint: &str) -> Option<T> {
     made.map_err(|error| value.note(chain(&error), hint)).ok()
-}
-
-/// The material's heights, for baking normals from them.
-struct Heights<'a> {
-    field: String,
-    given: bool,
-    read: Option<(&'a HeightSource, EdgeMode)>,
-}
-
-/// A map from a file, or baked from the material's heights, which then must be there.
-fn normal(value: &Value<'_>, files: &Files, heights: &Heights<'_>) -> Option<NormalSource> {
-    let table = value.table()?;
-    let codec = table
-        .need("codec", "`codec`: `unorm` or `biased`, as the map is written")
-        .and_then(|v| v.word(&CODEC));
-    let bake = table.get("bake");
-    let made = match &bake {
-        Some(bake) => {
-            refuse(
-                &table,
-                "map",
-                "`map` does not go with `bake`",
-                "give a `map`, or `bake` one from the heights",
-            );
-            baked(bake, codec, heights)
-        }
-        None => table
-            .need("map", "`map`, the normal map's file, or `bake = \"central\"`")
-            .and_then(|v| normal_map(&v, codec, files)),
-    };
-    table.finish();
-    made
-}
-
-fn normal_map(value: &Value<'_>, codec: Option<NormalCodec>, files: &Files) -> Option<NormalSource> {
-    let (path, image) = files.image(value)?;
-    let map = asset(
-        value,
-        NormalMap::from_image(&image, codec?),
-        "use an image with red, green and blue",
-    )?;
-    Some(NormalSource {
-        path,
-        map: Arc::new(map),
-    })
-}
-
-fn baked(value: &Value<'_>, codec: Option<NormalCodec>, heights: &Heights<'_>) -> Option<NormalSource> {
-    value.word(&[("central", ())])?;
-    if !heights.given {
-        let field = &heights.field;
-        value.note(
-            format!("there are no heights to bake from: `{field}` is missing"),
-            format!("add `{field}`"),
-        );
-        return None;
-    }
-    let (height, edge) = heights.read?;
-    let scale = height.elevation.scale.as_vec2().to_array();
-    let bake = asset(
-        value,
-        Bake::central(&height.field, scale, edge, codec?),
-        "make the relief less steep",
-    )?;
-    Some(NormalSource {
-        path: height.path.clone(),
-        map: Arc::new(height_to_normal::bake(&height.field, &bake)),
-    })
 }
 
 fn height(value: &Value<'_>, files: &Files) -> Option<HeightSource> {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bossage_assets::{Mesh, frame_from_uv, frame_mikktspace, primitives};
+use bossage_assets::{Mesh, frame_from_normal, frame_from_uv, frame_mikktspace, primitives};
 use bossage_shaders::{Form, LightingSpace};
 use glam::{DQuat, DVec2, DVec3};
 
@@ -120,7 +120,8 @@ fn shape(table: &Table<'_>, kind: Kind, files: &Files) -> Option<(Shape, Mesh)> 
 /// The keys that belong to a kind of shape.
 fn keys_of(kind: Kind) -> &'static [&'static str] {
     match kind {
-        Kind::Plane | Kind::Cube => &["size"],
+        Kind::Plane => &["size", "segments"],
+        Kind::Cube => &["size"],
         Kind::Sphere => &["radius", "segments"],
         Kind::Torus => &["major", "minor", "segments"],
         Kind::Obj => &["file"],
@@ -143,11 +144,16 @@ fn refuse_other_keys(table: &Table<'_>, kind: Kind) {
 fn plane(table: &Table<'_>) -> Option<(Shape, Mesh)> {
     let size = table.or("size", schema::PLANE_SIZE, |v| {
         v.numbers::<2>(POSITIVE).map(DVec2::from_array)
-    })?;
-    Some((
-        Shape::Plane { size },
-        primitives::plane(size.x as f32, size.y as f32),
-    ))
+    });
+    let segments = table.or("segments", schema::PLANE_SEGMENTS_DEFAULT, |v| {
+        segments(v, schema::PLANE_SEGMENTS)
+    });
+    let (size, segments) = (size?, segments?);
+    let mesh = match segments {
+        [1, 1] => primitives::plane(size.x as f32, size.y as f32),
+        [columns, rows] => primitives::grid(size.x as f32, size.y as f32, columns, rows),
+    };
+    Some((Shape::Plane { size, segments }, mesh))
 }
 
 fn cube(table: &Table<'_>) -> Option<(Shape, Mesh)> {
@@ -157,7 +163,9 @@ fn cube(table: &Table<'_>) -> Option<(Shape, Mesh)> {
 
 fn sphere(table: &Table<'_>) -> Option<(Shape, Mesh)> {
     let radius = table.or("radius", schema::RADIUS, |v| v.number(POSITIVE));
-    let segments = table.or("segments", schema::SEGMENTS_DEFAULT, segments);
+    let segments = table.or("segments", schema::SEGMENTS_DEFAULT, |v| {
+        segments(v, schema::SEGMENTS)
+    });
     let (radius, segments) = (radius?, segments?);
     Some((
         Shape::Sphere { radius, segments },
@@ -168,7 +176,9 @@ fn sphere(table: &Table<'_>) -> Option<(Shape, Mesh)> {
 fn torus(table: &Table<'_>) -> Option<(Shape, Mesh)> {
     let major = table.or("major", schema::TORUS_MAJOR, |v| v.number(POSITIVE));
     let minor = table.or("minor", schema::TORUS_MINOR, |v| v.number(POSITIVE));
-    let segments = table.or("segments", schema::SEGMENTS_DEFAULT, segments);
+    let segments = table.or("segments", schema::SEGMENTS_DEFAULT, |v| {
+        segments(v, schema::SEGMENTS)
+    });
     let (major, minor, segments) = (major?, minor?, segments?);
     if minor >= major {
         let message =
@@ -191,16 +201,16 @@ fn torus(table: &Table<'_>) -> Option<(Shape, Mesh)> {
     ))
 }
 
-fn segments(value: &Value<'_>) -> Option<[u32; 2]> {
+fn segments(value: &Value<'_>, range: std::ops::RangeInclusive<u32>) -> Option<[u32; 2]> {
     let items = value.items()?;
     let [around, along] = items.as_slice() else {
         value.note(
             format!("expected 2 numbers, found {}", items.len()),
-            "write `segments = [around, along]`",
+            "write `segments = [a, b]`",
         );
         return None;
     };
-    let (around, along) = (around.whole(schema::SEGMENTS), along.whole(schema::SEGMENTS));
+    let (around, along) = (around.whole(range.clone()), along.whole(range));
     Some([around?, along?])
 }
 
@@ -286,6 +296,8 @@ fn with_tangents(table: &Table<'_>, mut mesh: Mesh, uv_repeat: DVec2, material: 
         (Tangents::MikkTSpace, _) => frame_mikktspace::generate(&mut mesh),
         (Tangents::FromUv, Form::Published) => frame_from_uv::published(&mut mesh),
         (Tangents::FromUv, Form::Hardened) => frame_from_uv::hardened(&mut mesh),
+        (Tangents::FromNormal, Form::Published) => frame_from_normal::generate_published(&mut mesh),
+        (Tangents::FromNormal, Form::Hardened) => frame_from_normal::generate_hardened(&mut mesh),
     };
     made.map_err(|error| {
         table.note(

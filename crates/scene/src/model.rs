@@ -6,8 +6,9 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use bossage_assets::{ColorMap, EdgeMode, HeightField, Mesh, NormalMap};
-use bossage_shaders::{Form, LightingSpace};
+use bossage_assets::normal_mips::NormalMips;
+use bossage_assets::{ColorMap, CubeMap, EdgeMode, HeightField, Mesh, NormalMap, NormalisationCubeMap};
+use bossage_shaders::{Form, LightingSpace, Relief, Shading};
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 
 /// A loaded scene.
@@ -21,6 +22,8 @@ pub struct Scene {
     pub ambient: DVec3,
     /// Lights, in file order; at most [`crate::schema::MAX_LIGHTS`].
     pub lights: Vec<Light>,
+    /// What surrounds everything, if anything does.
+    pub environment: Option<Environment>,
     /// Materials, in file order; names are unique.
     pub materials: Vec<Material>,
     /// Objects, in file order; names are unique.
@@ -43,16 +46,27 @@ impl Scene {
             .filter(move |object| object.material == material)
     }
 
-    /// Pins one relief technique for every material that has a height map, as `--technique` does on the command line.
-    /// Materials without a height map are left alone.
-    pub fn pin_technique(&mut self, technique: TechniquePin) {
-        for material in self
-            .materials
-            .iter_mut()
-            .filter(|material| material.height.is_some())
-        {
-            material.technique = technique;
-        }
+    /// The lights that are not black.
+    pub fn active_lights(&self) -> impl Iterator<Item = &Light> {
+        self.lights.iter().filter(|light| !light.is_black())
+    }
+}
+
+/// Six pictures of what surrounds the scene, infinitely far away, in world space.
+#[derive(Clone, Debug)]
+pub struct Environment {
+    /// The files, in the order +X, −X, +Y, −Y, +Z, −Z.
+    pub paths: Vec<PathBuf>,
+    /// The faces: file bytes sRGB, decoded to linear.
+    pub map: Arc<CubeMap>,
+}
+
+impl Environment {
+    /// Whether no texel gives any light.
+    #[must_use]
+    pub fn is_black(&self) -> bool {
+        let dark = |texel: &[u8; 4]| texel[..3] == [0, 0, 0];
+        self.map.faces.iter().all(|face| face.texels.iter().all(dark))
     }
 }
 
@@ -138,6 +152,16 @@ pub struct Material {
     pub address: EdgeMode,
     /// `auto` or a technique.
     pub technique: TechniquePin,
+    /// How much ambient light a unit of shift takes away, for the techniques that occlude it.
+    pub occlusion: f64,
+    /// What light does.
+    pub shading: Shading,
+    /// What normalises the light vector of `dot3`.
+    pub normaliser: Normaliser,
+    /// How far toward the light the second height of `emboss` is read, texels.
+    pub emboss_texels: f64,
+    /// Whether the environment is mirrored.
+    pub reflection: ReflectionPin,
     /// As published, or hardened.
     pub form: Form,
     /// Where light and view vectors are measured.
@@ -160,8 +184,10 @@ pub struct AlbedoSource {
 pub struct NormalSource {
     /// The file: of the map, or of the heights it was baked from.
     pub path: PathBuf,
-    /// The texels, with the codec.
+    /// The texels, with the codec of the texture: the file's where that is linear, else one to which it was decoded.
     pub map: Arc<NormalMap>,
+    /// How the smaller levels are made.
+    pub mips: NormalMips,
 }
 
 /// A height map and the elevation it stands for.
@@ -215,6 +241,65 @@ pub enum TechniquePin {
     ParallaxOffset,
     /// `parallax_offset_limited`.
     ParallaxOffsetLimited,
+    /// `parallax_slope_ao`.
+    ParallaxSlopeAo,
+    /// `parallax_slope_ao_directed`.
+    ParallaxSlopeAoDirected,
+    /// `displacement`.
+    Displacement,
+}
+
+impl TechniquePin {
+    /// Every word and what it means.
+    pub const NAMES: [(&'static str, Self); 7] = [
+        ("auto", Self::Auto),
+        ("none", Self::None),
+        ("parallax_offset", Self::ParallaxOffset),
+        ("parallax_offset_limited", Self::ParallaxOffsetLimited),
+        ("parallax_slope_ao", Self::ParallaxSlopeAo),
+        ("parallax_slope_ao_directed", Self::ParallaxSlopeAoDirected),
+        ("displacement", Self::Displacement),
+    ];
+
+    /// The word used in scene files and on the command line.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        Self::NAMES[self as usize].0
+    }
+
+    /// The technique that is pinned; none for `auto`.
+    #[must_use]
+    pub fn relief(self) -> Option<Relief> {
+        match self {
+            Self::Auto => None,
+            Self::None => Some(Relief::None),
+            Self::ParallaxOffset => Some(Relief::ParallaxOffset),
+            Self::ParallaxOffsetLimited => Some(Relief::ParallaxOffsetLimited),
+            Self::ParallaxSlopeAo => Some(Relief::ParallaxSlopeAo),
+            Self::ParallaxSlopeAoDirected => Some(Relief::ParallaxSlopeAoDirected),
+            Self::Displacement => Some(Relief::Displacement),
+        }
+    }
+}
+
+/// What makes a unit vector of the light vector of `dot3`.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Normaliser {
+    /// Division by the length.
+    Arithmetic,
+    /// A lookup in this map.
+    Cube(Arc<NormalisationCubeMap>),
+}
+
+/// Whether a material mirrors the environment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReflectionPin {
+    /// Where there is an environment and something to mirror it with.
+    Auto,
+    /// Not at all.
+    None,
+    /// `environment_bump`.
+    EnvironmentBump,
 }
 
 /// How the mesh's tangents are generated.
@@ -224,6 +309,8 @@ pub enum Tangents {
     MikkTSpace,
     /// Per-triangle UV gradients summed per vertex.
     FromUv,
+    /// From each vertex's normal alone: along no texture axis.
+    FromNormal,
 }
 
 /// Something to draw.
@@ -250,6 +337,8 @@ pub enum Shape {
     Plane {
         /// Width and height.
         size: DVec2,
+        /// Rectangles along u and v.
+        segments: [u32; 2],
     },
     /// Axis-aligned.
     Cube {

@@ -37,6 +37,13 @@ impl Plan {
         self.materials[material].features
     }
 
+    /// The feature set with everything on that goes with what a material pins, by its index in the scene: what the planned
+    /// picture is compared with to prove that dropping was safe.
+    #[must_use]
+    pub fn everything(&self, material: usize) -> FeatureSet {
+        self.materials[material].everything
+    }
+
     /// Fills in the static cost of one permutation, as its manifest states it, for every material that shares it.
     pub fn set_cost(&mut self, permutation: &str, ops: u32, fetches: u32) {
         for material in self
@@ -55,14 +62,22 @@ impl Plan {
 pub struct MaterialPlan {
     /// The material.
     pub name: String,
-    /// The relief technique: `none`, `parallax_offset` or `parallax_offset_limited`.
+    /// The relief technique: `none`, or its id.
     pub technique: &'static str,
     /// `auto` or `pinned`: who decided the technique.
     pub technique_by: &'static str,
+    /// What light does: `blinn_phong`, or the id of the shading.
+    pub shading: &'static str,
+    /// `auto` or `pinned`: who decided the shading.
+    pub shading_by: &'static str,
     /// Name of the permutation.
     pub permutation: String,
     /// The permutation.
     pub features: FeatureSet,
+    /// The permutation with everything on that goes with what the scene pins: drawn with the same numbers it must give the
+    /// same picture.
+    #[serde(skip)]
+    pub everything: FeatureSet,
     /// Whether anything is drawn: a mask that discards every fragment draws nothing.
     pub drawn: bool,
     /// Every effect, in a fixed order.
@@ -107,14 +122,26 @@ pub enum EffectId {
     LightLoop,
     /// The specular lobe with its half vector.
     Specular,
+    /// The environment mirrored in the perturbed normal.
+    Environment,
     /// The normal map.
     NormalMap,
+    /// The cube map that normalises the light vector.
+    NormalisationCube,
     /// The albedo map.
     AlbedoMap,
     /// Discarding fragments by alpha.
     AlphaDiscard,
     /// Displacing texture coordinates by the height map.
     Relief,
+    /// Ambient light occluded by the slope of the normal map.
+    AmbientOcclusion,
+    /// The slope of the height map toward the light, added to the diffuse term.
+    Emboss,
+    /// Displacing vertices by the height map.
+    Displacement,
+    /// A second pass that multiplies the colour in.
+    SecondPass,
     /// The cofactor matrix for normals.
     CofactorMatrix,
     /// The sign of the tangent frame.
@@ -123,15 +150,21 @@ pub enum EffectId {
 
 impl EffectId {
     /// All of them, in order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 16] = [
         Self::Lighting,
         Self::LightVector,
         Self::LightLoop,
         Self::Specular,
+        Self::Environment,
         Self::NormalMap,
+        Self::NormalisationCube,
         Self::AlbedoMap,
         Self::AlphaDiscard,
         Self::Relief,
+        Self::AmbientOcclusion,
+        Self::Emboss,
+        Self::Displacement,
+        Self::SecondPass,
         Self::CofactorMatrix,
         Self::Handedness,
     ];
@@ -144,10 +177,16 @@ impl EffectId {
             Self::LightVector => "light_vector",
             Self::LightLoop => "light_loop",
             Self::Specular => "specular",
+            Self::Environment => "environment",
             Self::NormalMap => "normal_map",
+            Self::NormalisationCube => "normalisation_cube",
             Self::AlbedoMap => "albedo_map",
             Self::AlphaDiscard => "alpha_discard",
             Self::Relief => "relief",
+            Self::AmbientOcclusion => "ambient_occlusion",
+            Self::Emboss => "emboss",
+            Self::Displacement => "displacement",
+            Self::SecondPass => "second_pass",
             Self::CofactorMatrix => "cofactor_matrix",
             Self::Handedness => "handedness",
         }

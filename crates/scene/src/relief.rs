@@ -3,7 +3,7 @@
 //! Dropped, in this order: no map; constant heights; nothing textured to displace; pinned to `none`; out of view; a displacement
 //! that cannot reach the budget anywhere on screen. Otherwise the pinned technique, or the chosen one (see `choose.rs`).
 
-use bossage_shaders::Relief;
+use bossage_shaders::{Relief, Shading};
 
 use crate::choose::{Candidate, Choice, choose};
 use crate::decide::{Decision, NO_ERROR, Subject, evidence};
@@ -29,6 +29,9 @@ pub(crate) fn id(relief: Relief) -> &'static str {
         Relief::None => "none",
         Relief::ParallaxOffset => "parallax_offset",
         Relief::ParallaxOffsetLimited => "parallax_offset_limited",
+        Relief::ParallaxSlopeAo => "parallax_slope_ao",
+        Relief::ParallaxSlopeAoDirected => "parallax_slope_ao_directed",
+        Relief::Displacement => "displacement",
     }
 }
 
@@ -38,7 +41,7 @@ pub(crate) fn decide(subject: &Subject<'_>, textured: bool) -> ReliefPlan {
         return without("the material has no height map", Evidence::new(), NO_ERROR);
     };
     let Displacement { px, facts } = displacement(subject, height, range);
-    let pin = subject.material.technique;
+    let (pin, shading) = (subject.material.technique, subject.material.shading);
     if pin == TechniquePin::Auto && range.is_constant() {
         return without(
             "height does not vary: the surface is the polygon",
@@ -46,28 +49,40 @@ pub(crate) fn decide(subject: &Subject<'_>, textured: bool) -> ReliefPlan {
             NO_ERROR,
         );
     }
-    if !textured {
+    let displaces = pin == TechniquePin::Displacement;
+    if !textured && !displaces {
         return without("no map is left that it would displace", facts, NO_ERROR);
     }
-    let truth = Truth::trace(height, subject.material.address, &subject.views);
+    let truth = Truth::trace(subject.material, height, &subject.views);
     let predict = |technique| predicted(&truth, technique, subject);
-    match pin {
-        TechniquePin::None => without("pinned to none by the scene", facts, predict(Relief::None)),
-        TechniquePin::ParallaxOffset => {
-            pinned(Relief::ParallaxOffset, facts, predict(Relief::ParallaxOffset))
-        }
-        TechniquePin::ParallaxOffsetLimited => pinned(
-            Relief::ParallaxOffsetLimited,
-            facts,
-            predict(Relief::ParallaxOffsetLimited),
-        ),
-        TechniquePin::Auto if px == 0.0 => without("nothing of it is in view", facts, predict(Relief::None)),
-        TechniquePin::Auto if px <= subject.scene.budget.error_px => without(
+    if let Some(technique) = pin.relief() {
+        return match technique {
+            Relief::None => without("pinned to none by the scene", facts, predict(Relief::None)),
+            Relief::Displacement => displaced(facts, predict(technique)),
+            Relief::ParallaxOffset
+            | Relief::ParallaxOffsetLimited
+            | Relief::ParallaxSlopeAo
+            | Relief::ParallaxSlopeAoDirected => pinned(technique, facts, predict(technique)),
+        };
+    }
+    let shifts_nothing = match shading {
+        Shading::BlinnPhong => None,
+        Shading::WrapLambert => Some("`wrap_lambert` goes with the slope techniques, and none is pinned"),
+        Shading::Emboss => Some("embossing stands in for it"),
+        Shading::Dot3SinglePass | Shading::Dot3TwoPass => Some("`dot3` shifts no texture"),
+    };
+    if let Some(reason) = shifts_nothing {
+        without(reason, facts, predict(Relief::None))
+    } else if px == 0.0 {
+        without("nothing of it is in view", facts, predict(Relief::None))
+    } else if px <= subject.scene.budget.error_px {
+        without(
             "the displacement stays within the error budget everywhere on screen",
             facts,
             predict(Relief::None),
-        ),
-        TechniquePin::Auto => chosen(&truth, subject, facts),
+        )
+    } else {
+        chosen(&truth, subject, facts)
     }
 }
 
@@ -127,6 +142,16 @@ fn pinned(technique: Relief, facts: Evidence, predicted: Predicted) -> ReliefPla
     ReliefPlan {
         technique,
         decision: Decision::kept("pinned by the scene", facts),
+        predicted,
+        choice: None,
+    }
+}
+
+/// The vertex stage does it all.
+fn displaced(facts: Evidence, predicted: Predicted) -> ReliefPlan {
+    ReliefPlan {
+        technique: Relief::Displacement,
+        decision: Decision::dropped("the vertices themselves are displaced", facts),
         predicted,
         choice: None,
     }

@@ -22,26 +22,36 @@
 //! | `lights.position` | point only | required |
 //! | `lights.color` | 3 numbers ≥ 0 | `[1, 1, 1]` |
 //! | `lights.intensity` | number ≥ 0 | `1` |
+//! | `[environment]` | what surrounds the scene | none |
+//! | `environment.faces` | 6 square images of one size: +X, −X, +Y, −Y, +Z, −Z | required |
 //! | `[[materials]]` | | none |
 //! | `materials.name` | unique | required |
 //! | `materials.albedo.color` | 3 or 4 numbers in \[0, 1\], multiplies the map | `[1, 1, 1, 1]` |
 //! | `materials.albedo.map` | image | none |
-//! | `materials.normal.map` | image with at least 3 channels | required, or the next |
-//! | `materials.normal.bake` | `central`: from `height`, with its elevation and `address` | required, or the last |
-//! | `materials.normal.codec` | `unorm`, `biased` | required in `normal` |
+//! | `materials.normal.map` | image, with the channels that its codec needs | required, or the next |
+//! | `materials.normal.bake` | `central`, `forward`: from `height`, with its elevation and `address` | required, or the last |
+//! | `materials.normal.codec` | `unorm`, `biased`, `snorm`, `two_channel`, `octahedral`; with `bake` one of the first two | required in `normal` |
+//! | `materials.normal.mips` | `normalised`, `averaged` | `normalised` |
 //! | `materials.height.map` | image | required in `height` |
 //! | `materials.height.channel` | `red`, `green`, `blue`, `alpha`, `luminance` | `red` |
 //! | `materials.height.scale`, `.bias` | z(h) = scale·h + bias in UV units; scale > 0 | required, or the next two |
 //! | `materials.height.depth`, `.tile` | depth > 0 below the polygon, and width and height > 0 of one tile, world units | required, or the last two |
 //! | `materials.specular` | 3 numbers ≥ 0 | `[0, 0, 0]` |
 //! | `materials.shininess` | > 0, at most 65536 | `32` |
-//! | `materials.alpha.mode` | `opaque`, `mask` | `opaque` |
+//! | `materials.alpha.mode` | `opaque`, `mask` | `opaque`; with `wrap_lambert` `mask` at 0.01 |
 //! | `materials.alpha.cutoff` | in (0, 1], `mask` only | required with `mask` |
 //! | `materials.address` | `wrap`, `mirror`, `clamp` | `wrap` |
-//! | `materials.technique` | `auto`, `none`, `parallax_offset`, `parallax_offset_limited` | `auto` |
+//! | `materials.technique` | `auto`, `none`, `parallax_offset`, `parallax_offset_limited`, `parallax_slope_ao`, `parallax_slope_ao_directed`, `displacement` | `auto` |
+//! | `materials.occlusion` | ≥ 0: ambient light taken away by a unit of `parallax_slope_ao`'s shift | `40` |
+//! | `materials.shading` | `blinn_phong`, `wrap_lambert`, `emboss`, `dot3_single_pass`, `dot3_two_pass` | `blinn_phong` |
+//! | `materials.normaliser.kind` | `arithmetic`, `cube`; `dot3` only | `arithmetic` |
+//! | `materials.normaliser.size` | texels along an edge of the cube map, 1 to 4096 | required with `cube` |
+//! | `materials.normaliser.bits` | `8`, `16` | `8` |
+//! | `materials.emboss_texels` | > 0: how far toward the light `emboss` reads the second height | `1` |
+//! | `materials.reflection` | `auto`, `none`, `environment_bump` | `auto` |
 //! | `materials.form` | `hardened`, `published` | `hardened` |
 //! | `materials.lighting_space` | `world`, `object` | `world` |
-//! | `materials.tangents` | `mikktspace`, `from_uv` | `mikktspace` |
+//! | `materials.tangents` | `mikktspace`, `from_uv`, `from_normal` | `mikktspace` |
 //! | `[[objects]]` | at least one | required |
 //! | `objects.name` | unique | required |
 //! | `objects.material` | name of a material | required |
@@ -49,7 +59,7 @@
 //! | `objects.size` | plane: width and height > 0; cube: edge > 0 | `[2, 2]`; `2` |
 //! | `objects.radius` | sphere: > 0 | `1` |
 //! | `objects.major`, `objects.minor` | torus: > 0, minor < major | `1`, `0.4` |
-//! | `objects.segments` | sphere, torus: around and along, 3 to 1024 | `[48, 24]` |
+//! | `objects.segments` | sphere, torus: around and along, 3 to 1024; plane: along u and v, 1 to 1024 | `[48, 24]`; `[1, 1]` |
 //! | `objects.file` | obj: the file | required |
 //! | `objects.uv_repeat` | 2 numbers, not 0; negative mirrors | `[1, 1]` |
 //! | `objects.translate` | 3 numbers | `[0, 0, 0]` |
@@ -58,7 +68,14 @@
 //!
 //! Rules across keys:
 //!
-//! - A pinned relief technique needs `height`, and something textured to displace (`albedo.map` or `normal`).
+//! - A pinned relief technique needs `height`. The offsets need something textured to displace too (`albedo.map` or
+//!   `normal`), the slope techniques `normal`.
+//! - `emboss` needs `height`, `dot3_single_pass` and `dot3_two_pass` need `normal`; these and `wrap_lambert` have exactly one
+//!   light that is not black. Of relief techniques `wrap_lambert` goes with the slope's two and `displacement`, `emboss` and
+//!   `dot3` with none. `wrap_lambert` has one ambient value: `ambient` must be grey.
+//! - `wrap_lambert` cuts out alpha below 0.01 and nothing else; `dot3_two_pass` cannot cut out.
+//! - `environment_bump` needs `[environment]`, `specular`, `blinn_phong` and no slope technique; `auto` mirrors where that holds.
+//!   It is done in world space.
 //! - `lighting_space = "object"` needs objects of equal scale on all axes: anything else bends the angles it measures.
 //! - A height map that is constant is the polygon itself, whatever `scale` and `bias`, unless a technique is pinned.
 //! - World depth: z_u = depth/tile width, z_v = depth/tile height, bias = −scale on each axis.
@@ -94,6 +111,14 @@ pub const ALBEDO_COLOR: DVec4 = DVec4::ONE;
 pub const SPECULAR: DVec3 = DVec3::ZERO;
 /// Default `materials.shininess`.
 pub const SHININESS: f64 = 32.0;
+/// Default `materials.occlusion`, as published.
+pub const OCCLUSION: f64 = 40.0;
+/// Default `materials.emboss_texels`.
+pub const EMBOSS_TEXELS: f64 = 1.0;
+/// The alpha below which `wrap_lambert` cuts out, as published.
+pub const WRAP_ALPHA_CUTOFF: f64 = 0.01;
+/// Sizes of a normalisation cube map.
+pub const NORMALISER_SIZE: std::ops::RangeInclusive<u32> = 1..=4096;
 /// Default `objects.size` of a plane.
 pub const PLANE_SIZE: DVec2 = DVec2::new(2.0, 2.0);
 /// Default `objects.size` of a cube.
@@ -106,5 +131,9 @@ pub const TORUS_MAJOR: f64 = 1.0;
 pub const TORUS_MINOR: f64 = 0.4;
 /// Default `objects.segments`.
 pub const SEGMENTS_DEFAULT: [u32; 2] = [48, 24];
+/// Fewest and most segments of a plane.
+pub const PLANE_SEGMENTS: std::ops::RangeInclusive<u32> = 1..=1024;
+/// Default `objects.segments` of a plane.
+pub const PLANE_SEGMENTS_DEFAULT: [u32; 2] = [1, 1];
 /// Default `objects.uv_repeat`.
 pub const UV_REPEAT: DVec2 = DVec2::ONE;

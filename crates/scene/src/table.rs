@@ -37,6 +37,7 @@ impl fmt::Display for MaterialPlan {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(out, "material {}", self.name)?;
         writeln!(out, "  technique    {} ({})", self.technique, self.technique_by)?;
+        writeln!(out, "  shading      {} ({})", self.shading, self.shading_by)?;
         writeln!(out, "  permutation  {}", self.permutation)?;
         writeln!(out, "  predicted    {}", predicted(self))?;
         for object in &self.objects {
@@ -69,7 +70,7 @@ impl fmt::Display for Effect {
             State::Kept => "kept   ",
             State::Dropped => "dropped",
         };
-        write!(out, "{state}  {:<16}  {}", self.id.as_str(), self.reason)?;
+        write!(out, "{state}  {:<18}  {}", self.id.as_str(), self.reason)?;
         let facts: Vec<String> = self
             .evidence
             .iter()

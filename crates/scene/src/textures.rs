@@ -169,13 +169,13 @@ impl Texture {
         Self::plane(mips::color_chain(map).iter().map(level).collect())
     }
 
-    pub(crate) fn normal(map: &NormalMap) -> Self {
+    pub(crate) fn normal(map: &NormalMap, rule: mips::NormalMips) -> Self {
         let level = |map: NormalMap| Level {
             width: map.width,
             height: map.height,
             texels: Texels::Rgba8Unorm(map.texels),
         };
-        let chain = mips::normal_chain(map, mips::NormalMips::default());
+        let chain = mips::normal_chain(map, rule);
         Self::plane(chain.into_iter().map(level).collect())
     }
 

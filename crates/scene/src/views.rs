@@ -63,6 +63,10 @@ pub(crate) struct ViewRay {
     pub(crate) uv: DVec2,
     /// Unit vector to the eye in tangent space, z > 0.
     pub(crate) view_ts: DVec3,
+    /// Unit vector against the camera's viewing direction, in tangent space.
+    pub(crate) backward_ts: DVec3,
+    /// The corners of the mesh triangle: their UVs, and their shares in the point.
+    pub(crate) corners: [(DVec2, f64); 3],
     /// Pixels a UV unit spans along u and v (columns), on the polygon.
     pub(crate) px_per_uv: [DVec2; 2],
 }
@@ -205,13 +209,18 @@ impl View {
         let tangent = (self.matrices.world_from_local.transform_vector3(at.tangent.xyz())).try_normalize()?;
         let bitangent = normal.cross(tangent) * at.tangent.w.signum() * self.matrices.handedness;
         let view = (self.camera.position - at.position).try_normalize()?;
-        let view_ts = DVec3::new(tangent.dot(view), bitangent.dot(view), normal.dot(view)).try_normalize()?;
+        let to_tangent = |v: DVec3| DVec3::new(tangent.dot(v), bitangent.dot(v), normal.dot(v));
+        let view_ts = to_tangent(view).try_normalize()?;
+        let backward = (self.camera.position - self.camera.target).normalize();
+        let shares = bary.to_array();
         let px_per_uv = triangle
             .per_uv?
             .map(|along| self.screen_derivative(at.position, along));
         (view_ts.z > 0.0).then_some(ViewRay {
             uv: at.uv,
             view_ts,
+            backward_ts: to_tangent(backward),
+            corners: [0, 1, 2].map(|corner| (triangle.uv[corner], shares[corner])),
             px_per_uv,
         })
     }
@@ -273,7 +282,7 @@ impl Triangle {
 }
 
 /// dP/du and dP/dv of the affine map from UV to the triangle.
-fn world_per_uv(position: [DVec3; 3], uv: [DVec2; 3]) -> Option<[DVec3; 2]> {
+pub(crate) fn world_per_uv(position: [DVec3; 3], uv: [DVec2; 3]) -> Option<[DVec3; 2]> {
     let (p, q) = (position[1] - position[0], position[2] - position[0]);
     let (s, t) = (uv[1] - uv[0], uv[2] - uv[0]);
     let area = s.perp_dot(t);

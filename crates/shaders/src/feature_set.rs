@@ -5,7 +5,8 @@
 //! *pair* of modules, one a stage; [`FeatureSet::vertex`] and [`FeatureSet::fragment`] give the key of each, so stages are
 //! shared and the number of modules is a sum over the stages, not a product.
 //!
-//! Not here: deriving a feature set from content (`scene`), and the code itself (`/shaders`).
+//! Not here: which sets are equal (`canonical.rs`), deriving a feature set from content (`scene`), and the code itself
+//! (`/shaders`).
 
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +21,99 @@ pub enum Relief {
     ParallaxOffset,
     /// `uv + z(h) · V.xy`.
     ParallaxOffsetLimited,
+    /// `uv − (Δ, Δ)` with Δ from the normal map's slope, and ambient light occluded by 1 − k·Δ. Reads the normal map.
+    ParallaxSlopeAo,
+    /// The same Δ, shifted along the view.
+    ParallaxSlopeAoDirected,
+    /// The mesh's own vertices, moved along N by z(h), with new normals: nothing is left for the fragment stage to do.
+    Displacement,
+}
+
+impl Relief {
+    /// All of them, in order.
+    pub const ALL: [Self; 6] = [
+        Self::None,
+        Self::ParallaxOffset,
+        Self::ParallaxOffsetLimited,
+        Self::ParallaxSlopeAo,
+        Self::ParallaxSlopeAoDirected,
+        Self::Displacement,
+    ];
+
+    /// Whether the shift comes from the slope of the normal map and occludes ambient light.
+    #[must_use]
+    pub fn is_slope(self) -> bool {
+        matches!(self, Self::ParallaxSlopeAo | Self::ParallaxSlopeAoDirected)
+    }
+
+    /// Whether the shift comes from the elevation z(h).
+    #[must_use]
+    pub fn is_offset(self) -> bool {
+        matches!(self, Self::ParallaxOffset | Self::ParallaxOffsetLimited)
+    }
+
+    /// Whether the fragment stage shifts its texture coordinate.
+    #[must_use]
+    pub fn shifts(self) -> bool {
+        self.is_offset() || self.is_slope()
+    }
+}
+
+/// What light does on the surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shading {
+    /// Ambient light, Lambert's cosine, and a highlight where there is one.
+    #[default]
+    BlinnPhong,
+    /// The second article's: light wraps round to the far side. One light.
+    WrapLambert,
+    /// Lambert's cosine with the slope of the height map toward the light added. One light.
+    Emboss,
+    /// The third article's combiner in one pass. One light.
+    Dot3SinglePass,
+    /// The same in two: light to the target, then the colour multiplied in by blending.
+    Dot3TwoPass,
+}
+
+impl Shading {
+    /// All of them, in order.
+    pub const ALL: [Self; 5] = [
+        Self::BlinnPhong,
+        Self::WrapLambert,
+        Self::Emboss,
+        Self::Dot3SinglePass,
+        Self::Dot3TwoPass,
+    ];
+
+    /// The word used in scene files, names of permutations and plans.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::BlinnPhong => "blinn_phong",
+            Self::WrapLambert => "wrap_lambert",
+            Self::Emboss => "emboss",
+            Self::Dot3SinglePass => "dot3_single_pass",
+            Self::Dot3TwoPass => "dot3_two_pass",
+        }
+    }
+
+    /// Whether it is the third article's.
+    #[must_use]
+    pub fn is_dot3(self) -> bool {
+        matches!(self, Self::Dot3SinglePass | Self::Dot3TwoPass)
+    }
+}
+
+/// What makes a unit vector of the light vector of `dot3`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Normaliser {
+    /// Division by the length.
+    #[default]
+    Arithmetic,
+    /// A lookup in a normalisation cube map.
+    Cube,
 }
 
 /// Where the shading normal comes from.
@@ -124,8 +218,17 @@ pub struct FeatureSet {
     pub normal: NormalSource,
     /// How many lights of which kind.
     pub lights: Lights,
+    /// What light does on the surface.
+    #[serde(default)]
+    pub shading: Shading,
+    /// What normalises the light vector of `dot3`.
+    #[serde(default)]
+    pub normaliser: Normaliser,
     /// Whether there is a specular lobe.
     pub specular: bool,
+    /// Whether the surface mirrors a cube map by its specular colour.
+    #[serde(default)]
+    pub environment: bool,
     /// Where the diffuse colour comes from.
     pub albedo: Albedo,
     /// What alpha means.
@@ -141,96 +244,28 @@ pub struct FeatureSet {
 }
 
 impl FeatureSet {
-    /// Drops what cannot change a pixel, so that equal code has an equal key. Idempotent.
-    ///
-    /// - no albedo map → nothing to mask (an object whose constant alpha is below its cutoff is not drawn at all: that is
-    ///   the planner's decision, not a shader's)
-    /// - no light → no specular lobe and no use for a normal map
-    /// - nothing sampled → nothing to displace
-    /// - neither light nor relief → no vector of any kind: no space, no transform of directions, no form
-    /// - published formulas transform normals by the object's matrix itself → no cofactor matrix
-    /// - object space needs angles kept and one light: otherwise world space
-    /// - no tangent frame → no handedness
-    #[must_use]
-    pub fn canonical(mut self) -> Self {
-        if self.albedo == Albedo::Constant {
-            self.alpha = Alpha::Opaque;
-        }
-        if self.lights == Lights::None {
-            self.specular = false;
-            self.normal = NormalSource::Geometric;
-        }
-        if self.albedo == Albedo::Constant && self.normal == NormalSource::Geometric {
-            self.relief = Relief::None;
-        }
-        if !self.has_normal() {
-            self.transform = Transform::Rigid;
-            self.space = LightingSpace::World;
-            self.form = Form::Hardened;
-        }
-        if self.form == Form::Published {
-            self.transform = Transform::Rigid;
-        }
-        if self.transform == Transform::General || self.lights == Lights::Many {
-            self.space = LightingSpace::World;
-        }
-        if !self.has_tangent() {
-            self.mirrored_uv = false;
-        }
-        self
-    }
-
-    /// The same pinned technique, form and space with every other effect on: the shader against which a planned one is
-    /// compared to prove that dropping was safe.
-    ///
-    /// Without relief, the limited offset is switched on: with `material.relief = 0` it shifts by exactly zero whatever the
-    /// view. Object space stays with one light and a rigid transform, since that is all it is defined for.
-    #[must_use]
-    pub fn all_effects(self) -> Self {
-        let object = self.canonical().space == LightingSpace::Object;
-        FeatureSet {
-            relief: if self.relief == Relief::None {
-                Relief::ParallaxOffsetLimited
-            } else {
-                self.relief
-            },
-            normal: NormalSource::Map,
-            lights: match (object, self.lights) {
-                (true, Lights::Point) => Lights::Point,
-                (true, _) => Lights::Directional,
-                (false, _) => Lights::Many,
-            },
-            specular: true,
-            albedo: Albedo::Map,
-            alpha: Alpha::Mask,
-            transform: if object {
-                Transform::Rigid
-            } else {
-                Transform::General
-            },
-            mirrored_uv: true,
-            space: self.space,
-            form: self.form,
-        }
-        .canonical()
-    }
-
     /// Whether a normal crosses from the vertex to the fragment stage.
     #[must_use]
     pub fn has_normal(&self) -> bool {
-        self.lights != Lights::None || self.relief != Relief::None
+        self.lights != Lights::None || self.relief.shifts() || self.environment
     }
 
-    /// Whether a tangent frame is needed.
+    /// Whether the fragment stage needs a tangent frame.
     #[must_use]
     pub fn has_tangent(&self) -> bool {
-        self.normal == NormalSource::Map || self.relief != Relief::None
+        self.normal == NormalSource::Map || self.relief.shifts() || self.shading == Shading::Emboss
     }
 
     /// Whether the vector to the eye is needed.
     #[must_use]
     pub fn has_view(&self) -> bool {
-        self.specular || self.relief != Relief::None
+        self.specular || self.environment || (self.relief.shifts() && !self.has_view_axis())
+    }
+
+    /// Whether one viewing direction is needed for all pixels, as `parallax_slope_ao` has it as published.
+    #[must_use]
+    pub fn has_view_axis(&self) -> bool {
+        self.relief == Relief::ParallaxSlopeAo && self.form == Form::Published
     }
 
     /// Whether the position crosses to the fragment stage.
@@ -239,10 +274,13 @@ impl FeatureSet {
         self.has_view() || matches!(self.lights, Lights::Point | Lights::Many)
     }
 
-    /// Whether a texture coordinate is needed.
+    /// Whether the fragment stage needs a texture coordinate.
     #[must_use]
     pub fn has_uv(&self) -> bool {
-        self.albedo == Albedo::Map || self.normal == NormalSource::Map || self.relief != Relief::None
+        self.albedo == Albedo::Map
+            || self.normal == NormalSource::Map
+            || self.relief.shifts()
+            || self.shading == Shading::Emboss
     }
 
     /// Whether the handedness of the tangent frame crosses to the fragment stage (as the fourth component of the tangent).

@@ -9,19 +9,34 @@ use wesl::syntax::{
     GlobalDirective, Statement, TranslationUnit, UnaryOperator,
 };
 
-use crate::feature_set::{Albedo, Alpha, Form, LightingSpace, Lights, NormalSource, Relief, Transform};
-use crate::stage::{FragmentKey, VertexKey};
+use crate::feature_set::{
+    Albedo, Alpha, Form, LightingSpace, Lights, NormalSource, Normaliser, Relief, Shading, Transform,
+};
+use crate::stage::{FragmentKey, Pass, VertexKey};
 
 /// Every feature that the library's sources may name, sorted.
 pub(crate) const KNOWN: &[&str] = &[
+    "albedo",
     "albedo_map",
+    "alpha_cutoff",
     "alpha_mask",
+    "ambient",
     "any_varying",
+    "bent_normal",
+    "blinn_phong",
     "capture",
+    "cube_normaliser",
     "directional_light",
+    "displacement",
+    "dot3",
+    "dot3_first_pass",
+    "dot3_single_pass",
+    "elevation",
+    "emboss",
+    "environment",
     "general_transform",
     "handedness",
-    "lit",
+    "height_map",
     "many_lights",
     "mirrored_uv",
     "normal_map",
@@ -29,15 +44,24 @@ pub(crate) const KNOWN: &[&str] = &[
     "object_space",
     "parallax_offset",
     "parallax_offset_limited",
+    "parallax_slope_ao",
+    "parallax_slope_ao_directed",
     "point_light",
     "position_varying",
     "published",
     "relief",
+    "sampler",
+    "slope",
     "specular",
+    "specular_color",
     "tangent_varying",
+    "unit_normal",
     "uv_varying",
+    "view_axis",
+    "view_tangent",
     "view_vector",
     "world_matrix",
+    "wrap_lambert",
 ];
 
 /// The features of a vertex module, sorted.
@@ -45,12 +69,15 @@ pub(crate) fn of_vertex(key: &VertexKey) -> Vec<&'static str> {
     let general = key.transform == Transform::General;
     let object_space = key.space == LightingSpace::Object;
     on([
+        ("displacement", key.displacement),
         ("general_transform", general),
         ("handedness", key.tangent && (key.mirrored_uv || general)),
+        ("height_map", key.displacement),
         ("mirrored_uv", key.mirrored_uv),
         ("normal_varying", key.normal),
         ("object_space", object_space),
         ("position_varying", key.position),
+        ("sampler", key.displacement),
         ("tangent_varying", key.tangent),
         ("uv_varying", key.uv),
         (
@@ -60,39 +87,105 @@ pub(crate) fn of_vertex(key: &VertexKey) -> Vec<&'static str> {
     ])
 }
 
+/// What a fragment module needs for several of its effects.
+struct Needs {
+    uv: bool,
+    view_vector: bool,
+    view_axis: bool,
+    normal: bool,
+    tangent: bool,
+    /// The perturbed normal as it is, for formulas that take it unnormalised or normalise it themselves.
+    bent_normal: bool,
+    /// The perturbed normal at unit length.
+    unit_normal: bool,
+}
+
+impl Needs {
+    fn of(key: &FragmentKey) -> Self {
+        let (lit, shifts) = (key.lights != Lights::None, key.relief.shifts());
+        let emboss = key.shading == Shading::Emboss;
+        let mapped = key.normal == NormalSource::Map || shifts || emboss;
+        let view_axis = key.relief == Relief::ParallaxSlopeAo && key.form == Form::Published;
+        Self {
+            uv: mapped || key.albedo == Albedo::Map,
+            view_vector: key.specular || key.environment || (shifts && !view_axis),
+            view_axis,
+            normal: lit || shifts || key.environment,
+            tangent: mapped,
+            bent_normal: key.environment || (lit && key.shading == Shading::WrapLambert),
+            unit_normal: lit && (key.shading == Shading::BlinnPhong || emboss),
+        }
+    }
+}
+
 /// The features of a fragment module, sorted.
 pub(crate) fn of_fragment(key: &FragmentKey, capture: bool) -> Vec<&'static str> {
-    let relief = key.relief != Relief::None;
-    let lit = key.lights != Lights::None;
-    let view = key.specular || relief;
-    let uv = key.albedo == Albedo::Map || key.normal == NormalSource::Map || relief;
+    let needs = Needs::of(key);
+    let first_of = |pass| key.shading == Shading::Dot3TwoPass && key.pass == pass;
+    let (first, second) = (first_of(Pass::First), first_of(Pass::Second));
+    let single = key.shading == Shading::Dot3SinglePass;
+    let masked = key.alpha == Alpha::Mask;
+    let wrap = key.shading == Shading::WrapLambert;
     on([
+        ("albedo", !first),
         ("albedo_map", key.albedo == Albedo::Map),
-        ("alpha_mask", key.alpha == Alpha::Mask),
-        ("any_varying", lit || relief || uv),
+        ("alpha_cutoff", masked && !wrap),
+        ("alpha_mask", masked),
+        ("ambient", !second),
+        ("any_varying", needs.normal || needs.uv),
+        ("bent_normal", needs.bent_normal),
+        ("blinn_phong", key.shading == Shading::BlinnPhong),
         ("capture", capture),
+        ("cube_normaliser", key.normaliser == Normaliser::Cube),
         ("directional_light", key.lights == Lights::Directional),
+        ("dot3", single || first),
+        ("dot3_first_pass", first),
+        ("dot3_single_pass", single),
+        ("elevation", key.relief.is_offset()),
+        ("emboss", key.shading == Shading::Emboss),
+        ("environment", key.environment),
         ("handedness", key.handedness),
-        ("lit", lit),
+        (
+            "height_map",
+            key.relief.shifts() || key.shading == Shading::Emboss,
+        ),
         ("many_lights", key.lights == Lights::Many),
         ("normal_map", key.normal == NormalSource::Map),
-        ("normal_varying", lit || relief),
+        ("normal_varying", needs.normal),
         ("parallax_offset", key.relief == Relief::ParallaxOffset),
         (
             "parallax_offset_limited",
             key.relief == Relief::ParallaxOffsetLimited,
         ),
+        ("parallax_slope_ao", key.relief == Relief::ParallaxSlopeAo),
+        (
+            "parallax_slope_ao_directed",
+            key.relief == Relief::ParallaxSlopeAoDirected,
+        ),
         ("point_light", key.lights == Lights::Point),
         (
             "position_varying",
-            view || matches!(key.lights, Lights::Point | Lights::Many),
+            needs.view_vector || matches!(key.lights, Lights::Point | Lights::Many),
         ),
         ("published", key.form == Form::Published),
-        ("relief", relief),
+        ("relief", key.relief.shifts()),
+        (
+            "sampler",
+            needs.uv || key.environment || key.normaliser == Normaliser::Cube,
+        ),
+        ("slope", key.relief.is_slope()),
         ("specular", key.specular),
-        ("tangent_varying", key.normal == NormalSource::Map || relief),
-        ("uv_varying", uv),
-        ("view_vector", view),
+        ("specular_color", key.specular || key.environment),
+        ("tangent_varying", needs.tangent),
+        ("unit_normal", needs.unit_normal),
+        ("uv_varying", needs.uv),
+        ("view_axis", needs.view_axis),
+        (
+            "view_tangent",
+            key.relief.is_offset() || key.relief == Relief::ParallaxSlopeAoDirected,
+        ),
+        ("view_vector", needs.view_vector),
+        ("wrap_lambert", wrap),
     ])
 }
 

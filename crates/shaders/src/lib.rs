@@ -22,6 +22,7 @@
 //! ```
 
 mod assemble;
+mod canonical;
 mod check;
 mod error;
 mod feature_set;
@@ -40,13 +41,14 @@ mod user_file;
 
 pub use error::{Error, SourceError};
 pub use feature_set::{
-    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform,
+    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser, Relief, Shading,
+    Transform,
 };
 pub use kernel::Kernel;
 pub use library::{AssembledShader, Library};
 pub use probe::{Field, Probe, ProbeId, Role, Shape, WORKGROUP_SIZE};
 pub use probes::PROBES;
-pub use stage::{FragmentKey, Stage, VertexKey};
+pub use stage::{FragmentKey, Pass, Stage, VertexKey};
 pub use technique::{TECHNIQUES, Technique};
 
 /// The result of everything that can fail here.

@@ -12,7 +12,8 @@ use crate::assemble::{self, Assembled, Job, Modules, Trees, path_of_file};
 use crate::check::{self, Sources};
 use crate::source::Source;
 use crate::{
-    Error, FeatureSet, Kernel, PROBES, ProbeId, Result, Stage, TECHNIQUES, features, probe_entry, read,
+    Error, FeatureSet, FragmentKey, Kernel, PROBES, ProbeId, Result, Stage, TECHNIQUES, features,
+    probe_entry, read,
 };
 
 static EMBEDDED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/../../shaders");
@@ -144,37 +145,19 @@ impl Library {
         all
     }
 
-    /// One stage of the surface shader for a feature set (taken in its canonical form).
+    /// One stage of the surface shader for a feature set (taken in its canonical form). Without a second pass, the module of
+    /// [`Stage::SecondPass`] is that of the first.
     ///
     /// # Errors
     /// When the sources do not assemble.
     pub fn assemble_surface(&self, set: &FeatureSet, stage: Stage) -> Result<AssembledShader> {
-        let (file, entry, name, on) = match stage {
-            Stage::Vertex => {
-                let key = set.vertex();
-                (
-                    VERTEX_FILE,
-                    "surface_vertex",
-                    key.name(),
-                    features::of_vertex(&key),
-                )
-            }
-            Stage::Fragment | Stage::FragmentCapture => {
-                let key = set.fragment();
-                let capture = stage == Stage::FragmentCapture;
-                let name = if capture {
-                    format!("{}-capture", key.name())
-                } else {
-                    key.name()
-                };
-                (
-                    FRAGMENT_FILE,
-                    "surface_fragment",
-                    name,
-                    features::of_fragment(&key, capture),
-                )
-            }
+        let (file, entry, on) = match stage {
+            Stage::Vertex => (VERTEX_FILE, "surface_vertex", features::of_vertex(&set.vertex())),
+            Stage::Fragment => fragment(&set.fragment(), false),
+            Stage::FragmentCapture => fragment(&set.fragment(), true),
+            Stage::SecondPass => fragment(&set.second_pass().unwrap_or_else(|| set.fragment()), false),
         };
+        let name = set.module_name(stage);
         self.assemble(file, entry, name, on)
     }
 
@@ -266,6 +249,15 @@ impl Library {
     pub(crate) fn sources(&self) -> &Sources {
         &self.sources
     }
+}
+
+/// File, entry and features of a fragment module.
+fn fragment(key: &FragmentKey, capture: bool) -> (&'static str, &'static str, Vec<&'static str>) {
+    (
+        FRAGMENT_FILE,
+        "surface_fragment",
+        features::of_fragment(key, capture),
+    )
 }
 
 /// The files that tables name, and therefore must exist.

@@ -4,9 +4,10 @@
 //! digits, `_` and `-` occur, so a name is safe on every file system and, with `-` replaced, as an identifier.
 
 use crate::feature_set::{
-    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform,
+    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser, Relief, Shading,
+    Transform,
 };
-use crate::stage::{FragmentKey, VertexKey};
+use crate::stage::{FragmentKey, Pass, VertexKey};
 
 impl FeatureSet {
     /// The name of the permutation, after its canonical form.
@@ -25,7 +26,10 @@ impl FeatureSet {
                 relief(set.relief),
                 normal(set.normal),
                 lights(set.lights),
+                shading(set.shading, Pass::Only),
+                normaliser(set.normaliser),
                 set.specular.then_some("specular"),
+                set.environment.then_some("environment"),
                 albedo(set.albedo),
                 alpha(set.alpha),
                 transform(set.transform),
@@ -49,6 +53,7 @@ impl VertexKey {
                 self.tangent.then_some("tangent"),
                 self.mirrored_uv.then_some("mirrored_uv"),
                 self.uv.then_some("uv"),
+                self.displacement.then_some("displacement"),
                 transform(self.transform),
                 space(self.space),
             ],
@@ -66,7 +71,10 @@ impl FragmentKey {
                 relief(self.relief),
                 normal(self.normal),
                 lights(self.lights),
+                shading(self.shading, self.pass),
+                normaliser(self.normaliser),
                 self.specular.then_some("specular"),
+                self.environment.then_some("environment"),
                 albedo(self.albedo),
                 alpha(self.alpha),
                 self.handedness.then_some("handedness"),
@@ -88,6 +96,9 @@ fn relief(relief: Relief) -> Option<&'static str> {
         Relief::None => None,
         Relief::ParallaxOffset => Some("parallax_offset"),
         Relief::ParallaxOffsetLimited => Some("parallax_offset_limited"),
+        Relief::ParallaxSlopeAo => Some("parallax_slope_ao"),
+        Relief::ParallaxSlopeAoDirected => Some("parallax_slope_ao_directed"),
+        Relief::Displacement => Some("displacement"),
     }
 }
 
@@ -102,6 +113,22 @@ fn lights(lights: Lights) -> Option<&'static str> {
         Lights::Point => Some("point_light"),
         Lights::Many => Some("many_lights"),
     }
+}
+
+fn shading(shading: Shading, pass: Pass) -> Option<&'static str> {
+    match (shading, pass) {
+        (Shading::BlinnPhong, _) => None,
+        (Shading::Dot3TwoPass, Pass::First) => Some("dot3_first_pass"),
+        (Shading::Dot3TwoPass, Pass::Second) => Some("dot3_second_pass"),
+        (
+            Shading::WrapLambert | Shading::Emboss | Shading::Dot3SinglePass | Shading::Dot3TwoPass,
+            Pass::Only | Pass::First | Pass::Second,
+        ) => Some(shading.as_str()),
+    }
+}
+
+fn normaliser(normaliser: Normaliser) -> Option<&'static str> {
+    (normaliser == Normaliser::Cube).then_some("cube_normaliser")
 }
 
 fn albedo(albedo: Albedo) -> Option<&'static str> {

@@ -5,7 +5,8 @@
 use std::collections::BTreeSet;
 
 use crate::feature_set::{
-    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform,
+    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser, Relief, Shading,
+    Transform,
 };
 
 /// A stage of the surface shader.
@@ -13,10 +14,25 @@ use crate::feature_set::{
 pub enum Stage {
     /// `surface_vertex`.
     Vertex,
-    /// `surface_fragment`.
+    /// `surface_fragment`: of the only pass, or of the first of two.
     Fragment,
+    /// `surface_fragment` of the second of two passes: the colour alone, to be multiplied in by blending. It is drawn with the
+    /// vertex module of the first, so that depths agree to the bit.
+    SecondPass,
     /// `surface_fragment` that also writes its interpolated inputs, for numeric conformance.
     FragmentCapture,
+}
+
+/// Which of a permutation's draws a fragment module is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Pass {
+    /// There is one only.
+    #[default]
+    Only,
+    /// Light to the target.
+    First,
+    /// Colour multiplied in.
+    Second,
 }
 
 /// What the vertex module depends on.
@@ -36,6 +52,8 @@ pub struct VertexKey {
     pub transform: Transform,
     /// The space of position, normal and tangent.
     pub space: LightingSpace,
+    /// The vertices are displaced by the height map.
+    pub displacement: bool,
 }
 
 /// What the fragment module depends on.
@@ -47,8 +65,16 @@ pub struct FragmentKey {
     pub normal: NormalSource,
     /// How many lights of which kind.
     pub lights: Lights,
+    /// What light does on the surface.
+    pub shading: Shading,
+    /// What normalises the light vector of `dot3`.
+    pub normaliser: Normaliser,
+    /// Which draw it is for.
+    pub pass: Pass,
     /// Whether there is a specular lobe.
     pub specular: bool,
+    /// Whether the surface mirrors a cube map.
+    pub environment: bool,
     /// Where the diffuse colour comes from.
     pub albedo: Albedo,
     /// What alpha means.
@@ -72,75 +98,133 @@ impl FeatureSet {
             uv: set.has_uv(),
             transform: set.transform,
             space: set.space,
+            displacement: set.relief == Relief::Displacement,
         }
     }
 
-    /// The key of this permutation's fragment module.
+    /// The key of this permutation's fragment module: of the first, where there are two passes.
     #[must_use]
     pub fn fragment(&self) -> FragmentKey {
         let set = self.canonical();
+        let first = set.shading == Shading::Dot3TwoPass;
         FragmentKey {
-            relief: set.relief,
+            // Displaced vertices leave nothing to do for the fragment stage.
+            relief: if set.relief == Relief::Displacement {
+                Relief::None
+            } else {
+                set.relief
+            },
             normal: set.normal,
             lights: set.lights,
+            shading: set.shading,
+            normaliser: set.normaliser,
+            pass: if first { Pass::First } else { Pass::Only },
             specular: set.specular,
-            albedo: set.albedo,
+            environment: set.environment,
+            // The first pass writes light, and knows no colour.
+            albedo: if first { Albedo::Constant } else { set.albedo },
             alpha: set.alpha,
             handedness: set.has_handedness(),
             form: set.form,
         }
     }
 
+    /// The key of the second pass' fragment module, where there is one.
+    #[must_use]
+    pub fn second_pass(&self) -> Option<FragmentKey> {
+        let set = self.canonical();
+        (set.shading == Shading::Dot3TwoPass).then_some(FragmentKey {
+            relief: Relief::None,
+            normal: NormalSource::Geometric,
+            lights: Lights::None,
+            shading: set.shading,
+            normaliser: Normaliser::Arithmetic,
+            pass: Pass::Second,
+            specular: false,
+            environment: false,
+            albedo: set.albedo,
+            alpha: Alpha::Opaque,
+            handedness: false,
+            form: Form::Hardened,
+        })
+    }
+
+    /// The stages of this permutation, in the order of their use.
+    #[must_use]
+    pub fn stages(&self) -> &'static [Stage] {
+        if self.canonical().shading == Shading::Dot3TwoPass {
+            &[Stage::Vertex, Stage::Fragment, Stage::SecondPass]
+        } else {
+            &[Stage::Vertex, Stage::Fragment]
+        }
+    }
+
+    /// The name of a stage's module. A permutation of one pass has no second; its name is then that of the first.
+    #[must_use]
+    pub fn module_name(&self, stage: Stage) -> String {
+        match stage {
+            Stage::Vertex => self.vertex().name(),
+            Stage::Fragment => self.fragment().name(),
+            Stage::SecondPass => self.second_pass().unwrap_or_else(|| self.fragment()).name(),
+            Stage::FragmentCapture => format!("{}-capture", self.fragment().name()),
+        }
+    }
+
     /// Every canonical feature set, in order.
     #[must_use]
     pub fn reachable() -> Vec<FeatureSet> {
-        let mut sets = BTreeSet::new();
-        for relief in [
-            Relief::None,
-            Relief::ParallaxOffset,
-            Relief::ParallaxOffsetLimited,
-        ] {
-            for normal in [NormalSource::Geometric, NormalSource::Map] {
-                for lights in [Lights::None, Lights::Directional, Lights::Point, Lights::Many] {
-                    for albedo in [Albedo::Constant, Albedo::Map] {
-                        let set = FeatureSet {
-                            relief,
-                            normal,
-                            lights,
-                            albedo,
-                            ..FeatureSet::default()
-                        };
-                        vary_the_rest(set, &mut sets);
-                    }
-                }
-            }
-        }
-        sets.into_iter().collect()
+        let mut sets = vec![FeatureSet::default()];
+        vary(&mut sets, &Relief::ALL, |set, relief| set.relief = relief);
+        vary(&mut sets, &Shading::ALL, |set, shading| set.shading = shading);
+        vary(
+            &mut sets,
+            &[Normaliser::Arithmetic, Normaliser::Cube],
+            |set, it| {
+                set.normaliser = it;
+            },
+        );
+        vary(
+            &mut sets,
+            &[NormalSource::Geometric, NormalSource::Map],
+            |set, it| {
+                set.normal = it;
+            },
+        );
+        let lights = [Lights::None, Lights::Directional, Lights::Point, Lights::Many];
+        vary(&mut sets, &lights, |set, it| set.lights = it);
+        vary(&mut sets, &[Albedo::Constant, Albedo::Map], |set, it| {
+            set.albedo = it
+        });
+        vary(&mut sets, &[Alpha::Opaque, Alpha::Mask], |set, it| set.alpha = it);
+        vary(&mut sets, &[Transform::Rigid, Transform::General], |set, it| {
+            set.transform = it;
+        });
+        vary(
+            &mut sets,
+            &[LightingSpace::World, LightingSpace::Object],
+            |set, it| {
+                set.space = it;
+            },
+        );
+        vary(&mut sets, &[Form::Hardened, Form::Published], |set, it| {
+            set.form = it
+        });
+        vary(&mut sets, &[false, true], |set, it| set.specular = it);
+        vary(&mut sets, &[false, true], |set, it| set.environment = it);
+        vary(&mut sets, &[false, true], |set, it| set.mirrored_uv = it);
+        let canonical: BTreeSet<FeatureSet> = sets.into_iter().map(FeatureSet::canonical).collect();
+        canonical.into_iter().collect()
     }
 }
 
-fn vary_the_rest(set: FeatureSet, sets: &mut BTreeSet<FeatureSet>) {
-    for bits in 0_u32..64 {
-        let bit = |n: u32| bits >> n & 1 == 1;
-        sets.insert(
-            FeatureSet {
-                specular: bit(0),
-                alpha: if bit(1) { Alpha::Mask } else { Alpha::Opaque },
-                transform: if bit(2) {
-                    Transform::General
-                } else {
-                    Transform::Rigid
-                },
-                mirrored_uv: bit(3),
-                space: if bit(4) {
-                    LightingSpace::Object
-                } else {
-                    LightingSpace::World
-                },
-                form: if bit(5) { Form::Published } else { Form::Hardened },
-                ..set
-            }
-            .canonical(),
-        );
+/// Every set with every value of one field.
+fn vary<T: Copy>(sets: &mut Vec<FeatureSet>, values: &[T], change: impl Fn(&mut FeatureSet, T)) {
+    let before = std::mem::take(sets);
+    for one in before {
+        for &value in values {
+            let mut set = one;
+            change(&mut set, value);
+            sets.push(set);
+        }
     }
 }

@@ -8,7 +8,8 @@ use std::fs;
 use std::path::Path;
 
 use bossage_shaders::{
-    Albedo, Alpha, FeatureSet, Library, Lights, NormalSource, Relief, Result, Stage, Transform,
+    Albedo, Alpha, FeatureSet, Library, Lights, NormalSource, Normaliser, Relief, Result, Shading, Stage,
+    Transform,
 };
 
 struct Effect {
@@ -21,17 +22,133 @@ struct Effect {
 const EFFECTS: &[Effect] = &[
     Effect {
         name: "relief",
-        on: |set| set.relief != Relief::None,
+        on: |set| set.relief.shifts(),
+        vertex: &[],
+        fragment: &["relief"],
+    },
+    Effect {
+        name: "offset",
+        on: |set| set.relief.is_offset(),
+        vertex: &[],
+        fragment: &["elevation", "MIN_VIEW_Z"],
+    },
+    Effect {
+        name: "height map in the fragment stage",
+        on: |set| set.relief.shifts() || set.shading == Shading::Emboss,
+        vertex: &[],
+        fragment: &["height_map", "height"],
+    },
+    Effect {
+        name: "tangent-space vector",
+        on: |set| {
+            set.relief.is_offset()
+                || set.relief == Relief::ParallaxSlopeAoDirected
+                || set.shading == Shading::Emboss
+                || set.shading.is_dot3()
+        },
+        vertex: &[],
+        fragment: &["light_to_tangent"],
+    },
+    Effect {
+        name: "slope relief",
+        on: |set| set.relief.is_slope(),
         vertex: &[],
         fragment: &[
-            "height_map",
-            "relief",
-            "elevation",
-            "view_dir_ts",
-            "light_to_tangent",
-            "height",
-            "MIN_VIEW_Z",
+            "slope_texel",
+            "slope_normal",
+            "slope_view_dir",
+            "delta",
+            "parallax_slope_ao_delta",
+            "parallax_slope_ao_delta_published",
+            "slope_occlusion",
+            "occlusion",
         ],
+    },
+    Effect {
+        name: "parallax_slope_ao",
+        on: |set| set.relief == Relief::ParallaxSlopeAo,
+        vertex: &[],
+        fragment: &["parallax_slope_ao"],
+    },
+    Effect {
+        name: "parallax_slope_ao_directed",
+        on: |set| set.relief == Relief::ParallaxSlopeAoDirected,
+        vertex: &[],
+        fragment: &["parallax_slope_ao_directed"],
+    },
+    Effect {
+        name: "view axis",
+        on: FeatureSet::has_view_axis,
+        vertex: &[],
+        fragment: &["backward"],
+    },
+    Effect {
+        name: "displacement",
+        on: |set| set.relief == Relief::Displacement,
+        vertex: &[
+            "height_map",
+            "surface_sampler",
+            "displacement",
+            "displaced_position",
+            "displaced_normal",
+            "displacement_normal",
+            "height_at",
+        ],
+        fragment: &[],
+    },
+    Effect {
+        name: "wrap lambert",
+        on: |set| set.shading == Shading::WrapLambert,
+        vertex: &[],
+        fragment: &[
+            "wrap_lambert",
+            "wrap_lambert_factor",
+            "wrapped",
+            "factor",
+            "wrap_lambert_is_hole",
+        ],
+    },
+    Effect {
+        name: "emboss",
+        on: |set| set.shading == Shading::Emboss,
+        vertex: &[],
+        fragment: &[
+            "emboss",
+            "emboss_step",
+            "emboss_uv",
+            "embossed",
+            "height_toward_light",
+        ],
+    },
+    Effect {
+        name: "dot3",
+        on: |set| set.shading.is_dot3(),
+        vertex: &[],
+        fragment: &["dot3_combiner", "light_ts", "normal_color", "light_color"],
+    },
+    Effect {
+        name: "dot3 single pass",
+        on: |set| set.shading == Shading::Dot3SinglePass,
+        vertex: &[],
+        fragment: &["dot3_single_pass"],
+    },
+    Effect {
+        name: "dot3 first pass",
+        on: |set| set.shading == Shading::Dot3TwoPass,
+        vertex: &[],
+        fragment: &["dot3_first_pass"],
+    },
+    Effect {
+        name: "normalisation cube map",
+        on: |set| set.normaliser == Normaliser::Cube,
+        vertex: &[],
+        fragment: &["normalisation_map"],
+    },
+    Effect {
+        name: "environment",
+        on: |set| set.environment,
+        vertex: &[],
+        fragment: &["environment_map", "reflected_dir", "environment_bump"],
     },
     Effect {
         name: "parallax_offset",
@@ -58,9 +175,15 @@ const EFFECTS: &[Effect] = &[
         ],
     },
     Effect {
+        name: "tangent",
+        on: |set| set.has_tangent() || set.relief == Relief::Displacement,
+        vertex: &["tangent"],
+        fragment: &[],
+    },
+    Effect {
         name: "tangent frame",
         on: FeatureSet::has_tangent,
-        vertex: &["tangent", "lighting_space_tangent", "tangent_transform"],
+        vertex: &["lighting_space_tangent", "tangent_transform"],
         fragment: &["tangent", "tangent_dir", "bitangent_dir", "bitangent", "cross"],
     },
     Effect {
@@ -83,9 +206,15 @@ const EFFECTS: &[Effect] = &[
         ],
     },
     Effect {
+        name: "normal in the vertex stage",
+        on: |set| set.has_normal() || set.relief == Relief::Displacement,
+        vertex: &["normal"],
+        fragment: &[],
+    },
+    Effect {
         name: "normal",
         on: FeatureSet::has_normal,
-        vertex: &["normal", "lighting_space_normal"],
+        vertex: &["lighting_space_normal"],
         fragment: &["normal"],
     },
     Effect {
@@ -99,7 +228,6 @@ const EFFECTS: &[Effect] = &[
         on: |set| set.specular,
         vertex: &[],
         fragment: &[
-            "specular",
             "shininess",
             "blinn_phong",
             "blinn_phong_published",
@@ -109,10 +237,28 @@ const EFFECTS: &[Effect] = &[
         ],
     },
     Effect {
+        name: "view",
+        on: |set| set.has_view() || set.has_view_axis(),
+        vertex: &[],
+        fragment: &["view", "View"],
+    },
+    Effect {
         name: "view vector",
         on: FeatureSet::has_view,
         vertex: &[],
-        fragment: &["view", "View", "eye", "view_dir"],
+        fragment: &["eye"],
+    },
+    Effect {
+        name: "specular colour",
+        on: |set| set.specular || set.environment,
+        vertex: &[],
+        fragment: &["specular"],
+    },
+    Effect {
+        name: "sampler",
+        on: |set| set.has_uv() || set.environment,
+        vertex: &[],
+        fragment: &["surface_sampler"],
     },
     Effect {
         name: "position",
@@ -133,29 +279,21 @@ const EFFECTS: &[Effect] = &[
         fragment: &["discard", "alpha_cutoff"],
     },
     Effect {
+        name: "texture coordinate in the vertex stage",
+        on: |set| set.has_uv() || set.relief == Relief::Displacement,
+        vertex: &["uv"],
+        fragment: &[],
+    },
+    Effect {
         name: "texture coordinate",
         on: FeatureSet::has_uv,
-        vertex: &["uv"],
-        fragment: &[
-            "uv",
-            "uv_dx",
-            "uv_dy",
-            "dpdx",
-            "dpdy",
-            "surface_sampler",
-            "textureSampleGrad",
-        ],
+        vertex: &[],
+        fragment: &["uv", "uv_dx", "uv_dy", "dpdx", "dpdy", "textureSampleGrad"],
     },
     Effect {
         name: "general transform",
         on: |set| set.transform == Transform::General,
-        vertex: &[
-            "cofactor",
-            "handedness_sign",
-            "normal_transform_by_cofactor",
-            "normalise",
-            "largest_component",
-        ],
+        vertex: &["cofactor", "handedness_sign", "normal_transform_by_cofactor"],
         fragment: &[],
     },
     Effect {
@@ -180,7 +318,7 @@ fn left_behind(set: &FeatureSet, stage: Stage, wgsl: &str) -> Vec<String> {
 fn list(effect: &Effect, stage: Stage) -> &'static [&'static str] {
     match stage {
         Stage::Vertex => effect.vertex,
-        Stage::Fragment | Stage::FragmentCapture => effect.fragment,
+        Stage::Fragment | Stage::SecondPass | Stage::FragmentCapture => effect.fragment,
     }
 }
 
@@ -250,6 +388,34 @@ fn every_word_on_the_lists_occurs_where_its_effect_is_kept() -> Result<()> {
     Ok(())
 }
 
+/// The second pass writes the colour and knows of nothing else.
+#[test]
+fn a_second_pass_holds_the_colour_alone() -> Result<()> {
+    let library = Library::embedded()?;
+    let mut seen = 0;
+    for set in FeatureSet::reachable()
+        .into_iter()
+        .filter(|set| set.second_pass().is_some())
+    {
+        let wgsl = library.assemble_surface(&set, Stage::SecondPass)?.wgsl;
+        for word in [
+            "light",
+            "normal_map",
+            "ambient",
+            "tangent",
+            "normal",
+            "position",
+            "view",
+        ] {
+            assert!(!words(&wgsl).contains(&word), "{}: `{word}`", set.name());
+        }
+        assert!(words(&wgsl).contains(&"albedo"));
+        seen += 1;
+    }
+    assert!(seen > 1);
+    Ok(())
+}
+
 /// The library in a folder, with one text in one file replaced.
 fn edited(file: &str, from: &str, to: &str) -> Result<Library> {
     let folder = tempfile::tempdir().unwrap_or_else(|error| panic!("no temporary folder: {error}"));
@@ -303,7 +469,13 @@ fn a_missing_guard_is_caught() -> Result<()> {
             "@if(general_transform) cofactor",
             "cofactor",
         ),
-        ("entry/surface_fragment.wesl", "@if(alpha_mask)\n    if", "if"),
+        ("entry/surface_fragment.wesl", "@elif(alpha_mask)\n", "@else\n"),
+        (
+            "entry/surface_bindings.wesl",
+            "@if(specular_color) specular",
+            "specular",
+        ),
+        ("entry/surface_bindings.wesl", "@if(slope) occlusion", "occlusion"),
         (
             "entry/surface_fragment.wesl",
             "@if(view_vector)\n    let view_dir",

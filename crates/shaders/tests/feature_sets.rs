@@ -3,23 +3,27 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use bossage_shaders::{
-    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Relief, Transform,
+    Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser, Pass, Relief, Shading,
+    Stage, Transform,
 };
 
-/// Every value of the type, canonical or not: 3·2·4·2·2·2·2·2·2·2 = 3072.
+/// Every value of the type, canonical or not: 6·5·2·2·4·2⁸.
 fn all() -> Vec<FeatureSet> {
     let mut sets = vec![FeatureSet::default()];
     let mut vary = |change: &dyn Fn(FeatureSet) -> Vec<FeatureSet>| {
         sets = sets.iter().copied().flat_map(change).collect()
     };
+    vary(&|s| Relief::ALL.map(|relief| FeatureSet { relief, ..s }).to_vec());
+    vary(&|s| Shading::ALL.map(|shading| FeatureSet { shading, ..s }).to_vec());
     vary(&|s| {
-        [
-            Relief::None,
-            Relief::ParallaxOffset,
-            Relief::ParallaxOffsetLimited,
-        ]
-        .map(|relief| FeatureSet { relief, ..s })
-        .to_vec()
+        [Normaliser::Arithmetic, Normaliser::Cube]
+            .map(|normaliser| FeatureSet { normaliser, ..s })
+            .to_vec()
+    });
+    vary(&|s| {
+        [false, true]
+            .map(|environment| FeatureSet { environment, ..s })
+            .to_vec()
     });
     vary(&|s| {
         [NormalSource::Geometric, NormalSource::Map]
@@ -66,7 +70,7 @@ fn all() -> Vec<FeatureSet> {
             .map(|form| FeatureSet { form, ..s })
             .to_vec()
     });
-    assert_eq!(sets.len(), 3072);
+    assert_eq!(sets.len(), 122_880);
     sets
 }
 
@@ -79,11 +83,11 @@ fn canonical_is_idempotent_and_reachable_holds_exactly_the_canonical_ones() {
 
 #[test]
 fn equal_code_has_an_equal_key_and_different_keys_have_different_names() {
-    let (mut names, mut pairs) = (BTreeMap::new(), BTreeMap::new());
+    let (mut names, mut modules) = (BTreeMap::new(), BTreeMap::new());
     for set in FeatureSet::reachable() {
         assert_eq!(names.insert(set.name(), set), None, "{}", set.name());
         assert_eq!(
-            pairs.insert((set.vertex(), set.fragment()), set),
+            modules.insert((set.vertex(), set.fragment(), set.second_pass()), set),
             None,
             "{} has the modules of another",
             set.name()
@@ -104,30 +108,66 @@ fn names_are_safe_and_not_too_long_for_a_file() {
 }
 
 #[test]
-fn all_effects_keeps_what_is_pinned_and_turns_the_rest_on() {
+fn all_effects_keeps_what_is_pinned_and_turns_on_all_that_goes_with_it() {
     for set in all() {
-        let every = set.all_effects();
+        let (planned, every) = (set.canonical(), set.all_effects());
         assert_eq!(every.canonical(), every);
         assert_eq!(every.all_effects(), every);
         assert_eq!(
-            (every.form, every.normal, every.albedo, every.alpha),
-            (set.form, NormalSource::Map, Albedo::Map, Alpha::Mask)
+            (every.shading, every.normaliser, every.albedo),
+            (planned.shading, planned.normaliser, Albedo::Map)
+        );
+        if planned.relief != Relief::None {
+            assert_eq!(every.relief, planned.relief);
+        }
+        let one_form =
+            every.normaliser == Normaliser::Cube || every.relief == Relief::ParallaxSlopeAoDirected;
+        assert_eq!(every.form, if one_form { Form::Hardened } else { set.form });
+        let two_pass = every.shading == Shading::Dot3TwoPass;
+        assert_eq!(every.alpha == Alpha::Mask, !two_pass, "{}", every.name());
+        // These have normals of their own.
+        let own_normals = every.relief == Relief::Displacement || every.shading == Shading::Emboss;
+        assert_eq!(every.normal == NormalSource::Map, !own_normals);
+        assert!(every.has_tangent() == every.mirrored_uv && every.lights != Lights::None);
+        let plain = every.shading == Shading::BlinnPhong;
+        assert_eq!(every.specular, plain);
+        let world = every.space == LightingSpace::World;
+        assert_eq!(every.environment, plain && world && !every.relief.is_slope());
+        assert_eq!(
+            every.relief == Relief::None,
+            every.shading == Shading::Emboss || every.shading.is_dot3()
+        );
+        if every.form == Form::Hardened && world && set.form == Form::Hardened {
+            assert_eq!(every.transform, Transform::General);
+            assert_eq!(every.lights == Lights::Many, plain);
+        }
+    }
+}
+
+/// A dropped effect is on in the shader that proves it: nothing of the planned shader is missing there.
+#[test]
+fn all_effects_has_all_that_was_planned() {
+    for planned in FeatureSet::reachable() {
+        let every = planned.all_effects();
+        let name = planned.name();
+        assert!(every.specular || !planned.specular, "{name}");
+        assert!(every.environment || !planned.environment, "{name}");
+        assert!(every.has_normal() || !planned.has_normal(), "{name}");
+        assert!(every.has_tangent() || !planned.has_tangent(), "{name}");
+        assert!(every.has_uv() || !planned.has_uv(), "{name}");
+        assert!(
+            every.alpha == Alpha::Mask || planned.alpha == Alpha::Opaque,
+            "{name}"
         );
         assert!(
-            every.specular
-                && every.mirrored_uv
-                && every.relief != Relief::None
-                && every.lights != Lights::None
+            every.normal == NormalSource::Map || planned.normal == NormalSource::Geometric,
+            "{name}"
         );
-        if set.relief != Relief::None {
-            assert_eq!(every.relief, set.relief);
-        }
-        if set.form == Form::Hardened && every.space == LightingSpace::World {
-            assert_eq!(
-                (every.lights, every.transform),
-                (Lights::Many, Transform::General)
-            );
-        }
+        assert_eq!(
+            every.second_pass().is_some(),
+            planned.second_pass().is_some(),
+            "{name}"
+        );
     }
 }
 
@@ -136,6 +176,74 @@ fn all_effects_keeps_the_lighting_space_of_the_planned_shader() {
     for set in FeatureSet::reachable().into_iter().filter(FeatureSet::has_normal) {
         assert_eq!(set.all_effects().space, set.space, "{}", set.name());
     }
+}
+
+/// The rules of the articles, by counting what exists.
+#[test]
+fn each_technique_goes_with_what_its_article_has() {
+    for set in FeatureSet::reachable() {
+        let name = set.name();
+        let one_light = matches!(set.lights, Lights::Directional | Lights::Point);
+        if set.shading != Shading::BlinnPhong {
+            assert!(
+                one_light && !set.specular && !set.environment && !set.relief.is_offset(),
+                "{name}"
+            );
+        }
+        if set.shading.is_dot3() {
+            assert!(
+                set.normal == NormalSource::Map && set.relief == Relief::None,
+                "{name}"
+            );
+        }
+        if set.shading == Shading::Emboss {
+            assert!(
+                set.normal == NormalSource::Geometric && set.relief == Relief::None,
+                "{name}"
+            );
+        }
+        if set.relief.is_slope() {
+            assert!(set.normal == NormalSource::Map && !set.environment, "{name}");
+        }
+        if set.relief == Relief::Displacement {
+            assert!(set.normal == NormalSource::Geometric, "{name}");
+        }
+        if set.environment {
+            assert!(
+                set.specular == (set.lights != Lights::None) && set.space == LightingSpace::World,
+                "{name}"
+            );
+        }
+    }
+}
+
+#[test]
+fn two_passes_share_a_vertex_module_and_part_their_work() {
+    let mut seen = 0;
+    for set in FeatureSet::reachable() {
+        let two = set.shading == Shading::Dot3TwoPass;
+        assert_eq!(set.stages().contains(&Stage::SecondPass), two);
+        let Some(second) = set.second_pass() else {
+            assert_eq!(set.fragment().pass, Pass::Only);
+            continue;
+        };
+        let first = set.fragment();
+        assert_eq!((first.pass, second.pass), (Pass::First, Pass::Second));
+        // Colour is the second's, everything else the first's.
+        assert_eq!((first.albedo, second.albedo), (Albedo::Constant, set.albedo));
+        assert_eq!(
+            (second.lights, second.normal),
+            (Lights::None, NormalSource::Geometric)
+        );
+        // What the second reads, the shared vertex module gives.
+        assert!(set.vertex().uv);
+        assert_ne!(
+            set.module_name(Stage::Fragment),
+            set.module_name(Stage::SecondPass)
+        );
+        seen += 1;
+    }
+    assert!(seen > 0);
 }
 
 #[test]

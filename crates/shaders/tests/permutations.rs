@@ -38,13 +38,13 @@ fn validate(shader: &AssembledShader) -> std::result::Result<naga::Module, Strin
 fn surface_modules(library: &Library) -> Result<BTreeMap<String, AssembledShader>> {
     let mut modules = BTreeMap::new();
     for set in FeatureSet::reachable() {
-        for stage in [Stage::Vertex, Stage::Fragment, Stage::FragmentCapture] {
-            let name = match stage {
-                Stage::Vertex => set.vertex().name(),
-                Stage::Fragment => set.fragment().name(),
-                Stage::FragmentCapture => format!("{}-capture", set.fragment().name()),
-            };
-            if let Entry::Vacant(vacant) = modules.entry(name) {
+        for stage in [
+            Stage::Vertex,
+            Stage::Fragment,
+            Stage::SecondPass,
+            Stage::FragmentCapture,
+        ] {
+            if let Entry::Vacant(vacant) = modules.entry(set.module_name(stage)) {
                 let shader = library.assemble_surface(&set, stage)?;
                 assert_eq!(&shader.name, vacant.key());
                 vacant.insert(shader);

@@ -121,6 +121,9 @@ struct MaterialEntry<'a> {
     permutation: &'a str,
     vertex: String,
     fragment: String,
+    /// Drawn after the first with the same vertex stage at equal depth, its colour and alpha multiplied into the target.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    second_pass: Option<String>,
 }
 
 impl<'a> From<&'a Planned> for SceneEntry<'a> {
@@ -131,6 +134,7 @@ impl<'a> From<&'a Planned> for SceneEntry<'a> {
             permutation: &m.permutation,
             vertex: m.features.vertex().name(),
             fragment: m.features.fragment().name(),
+            second_pass: m.features.second_pass().map(|key| key.name()),
         };
         Self {
             path: &planned.scene.path,

@@ -24,12 +24,23 @@ pub(crate) fn run(args: &plan::Plan, global: &Global) -> Result<Verdict> {
     Ok(Verdict::Fine)
 }
 
-/// Fills in what each permutation's fragment stage does: operations and texture fetches a pixel.
+/// Fills in what each permutation's fragment stages do: operations and texture fetches a pixel, of both passes where there are
+/// two.
 pub(crate) fn add_costs(plan: &mut Plan, library: &Library) -> Result<()> {
     for permutation in plan.permutations.clone() {
-        let assembled = library.assemble_surface(&permutation.features, Stage::Fragment)?;
-        let cost = inputs::entry(&assembled)?.cost;
-        plan.set_cost(&permutation.name, cost.ops, cost.samples + cost.texture_loads);
+        let fragments = permutation
+            .features
+            .stages()
+            .iter()
+            .filter(|stage| **stage != Stage::Vertex);
+        let (mut ops, mut fetches) = (0, 0);
+        for stage in fragments {
+            let assembled = library.assemble_surface(&permutation.features, *stage)?;
+            let cost = inputs::entry(&assembled)?.cost;
+            ops += cost.ops;
+            fetches += cost.samples + cost.texture_loads;
+        }
+        plan.set_cost(&permutation.name, ops, fetches);
     }
     Ok(())
 }
@@ -52,8 +63,8 @@ pub(crate) fn table(plan: &Plan) -> String {
 fn of_material(material: &MaterialPlan) -> String {
     let name = console::heading(format_args!("material {}", material.name));
     let mut text = format!(
-        "\n{name}: technique {} ({})\n",
-        material.technique, material.technique_by
+        "\n{name}: technique {} ({}), shading {} ({})\n",
+        material.technique, material.technique_by, material.shading, material.shading_by
     );
     let _ = writeln!(text, "  permutation {}", material.permutation);
     for effect in &material.effects {

@@ -9,6 +9,7 @@
 
 mod pixels;
 mod surface;
+mod truth;
 mod upload;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -120,7 +121,7 @@ impl SceneCase {
 
 /// The same object with every effect on.
 fn everything(scene: &Scene, plan: &Plan, draw: &Draw) -> Draw {
-    let all = draws_with(scene, |material| plan.features(material).all_effects());
+    let all = draws_with(scene, |material| plan.everything(material));
     all.into_iter()
         .find(|full| full.object == draw.object)
         .unwrap_or_else(|| draw.clone())
@@ -224,7 +225,7 @@ impl Case for SceneCase {
     fn modules(&self) -> Result<Vec<Module>, String> {
         let (scene, plan) = self.scene()?;
         let planned = draws(scene, plan);
-        let full = draws_with(scene, |material| plan.features(material).all_effects());
+        let full = draws_with(scene, |material| plan.everything(material));
         let drawn = match self.shaders {
             Shaders::Planned => planned,
             Shaders::AllEffects => full,

@@ -305,11 +305,11 @@ const CASES: &[Case] = &[
     ),
     case(
         "codec = \"unorm\"",
-        "codec = \"snorm\"",
-        "\"snorm\"",
+        "codec = \"snrm\"",
+        "\"snrm\"",
         "materials[0].normal.codec",
         "not known",
-        "did you mean `unorm`?",
+        "did you mean `snorm`?",
     ),
     case(
         ", codec = \"unorm\"",
@@ -438,8 +438,8 @@ const CASES: &[Case] = &[
         "height.png",
         "\"height.png\", codec",
         "materials[0].normal.map",
-        "red, green and blue",
-        "image with red",
+        "needs 3 colour channels",
+        "channels of its codec",
     ),
     case(
         "height.png\"",

@@ -284,6 +284,7 @@ const fn tangents(tangents: bossage_scene::Tangents) -> &'static str {
     match tangents {
         bossage_scene::Tangents::MikkTSpace => "frame_mikktspace",
         bossage_scene::Tangents::FromUv => "frame_from_uv",
+        bossage_scene::Tangents::FromNormal => "frame_from_normal",
     }
 }
 

@@ -9,7 +9,8 @@ use bossage_scene::Draw;
 use bossage_shaders::{Alpha, FeatureSet, Stage};
 use rayon::prelude::*;
 
-use super::surface::{Maps, bounded, material};
+use super::surface::{bounded, is_bounded};
+use super::truth::{self, Maps, material};
 use super::upload::{address, mesh, textures};
 use crate::bench::Bench;
 use crate::case::with_causes;
@@ -37,6 +38,9 @@ pub(super) struct Pixel {
 
 /// Renders the object with the draw's shaders, and once more with the capture variant.
 pub(super) fn render(bench: &Bench<'_>, draw: &Draw, size: [u32; 2]) -> Result<Vec<Pixel>, String> {
+    if !is_bounded(draw) {
+        return Err(format!("no bound is known for {}", draw.features.name()));
+    }
     let size = scaled(size);
     let picture = picture(bench, draw, &draw.features, Stage::Fragment, size, 1)?;
     let capture = picture_of(bench, draw, &uncut(&draw.features), size)?;
@@ -186,8 +190,8 @@ impl<'a> Context<'a> {
     }
 
     fn truth(&self, at: &Interpolants) -> Option<[f64; 4]> {
-        let (eye, lights, form) = super::surface::view(self.draw);
-        match shade(&self.reference, &lights, eye, &super::surface::doubles(at), form) {
+        let (viewer, lights, form) = truth::view(self.draw);
+        match shade(&self.reference, &lights, &viewer, &truth::doubles(at), form) {
             Truth::Color(color) => Some(color.to_array()),
             Truth::Discarded => None,
         }
