@@ -18,6 +18,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("reference", &["assets"]),
     ("scene", &["assets", "shaders", "reference"]),
     ("runner", &["translate"]),
+    ("embedded", &["translate", "bounds", "runner"]),
     (
         "conformance",
         &[
@@ -28,6 +29,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "reference",
             "scene",
             "runner",
+            "embedded",
         ],
     ),
     (
@@ -40,6 +42,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "reference",
             "scene",
             "runner",
+            "embedded",
             "conformance",
         ],
     ),
@@ -62,6 +65,11 @@ const NEVER: &[(&str, &[&str], &str)] = &[
         "translate",
         &["wgpu", "wesl"],
         "translation runs on machines without an adapter",
+    ),
+    (
+        "embedded",
+        &["wgpu", "wesl"],
+        "it is there for machines that have no driver",
     ),
     (
         "scene",

@@ -75,6 +75,7 @@ mod interval;
 mod kind;
 mod limits;
 pub mod ranges;
+mod readback;
 mod run;
 mod stage;
 mod texture;

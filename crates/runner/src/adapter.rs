@@ -165,7 +165,8 @@ fn llvm_version(text: &str) -> Option<String> {
 }
 
 /// The CPU's model, from `/proc/cpuinfo`; where there is none, the architecture.
-fn cpu_model() -> String {
+#[must_use]
+pub fn cpu_model() -> String {
     let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     model_name(&text).unwrap_or_else(|| std::env::consts::ARCH.to_owned())
 }

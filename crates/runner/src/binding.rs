@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use bossage_translate::manifest::{Binding, Entry, Kind};
+use bossage_translate::manifest::Kind;
 
 use crate::cache::Layout;
 use crate::code::{Code, Shader};
@@ -14,21 +14,10 @@ use crate::device::Device;
 use crate::error::Error;
 use crate::layout;
 use crate::pipeline;
-use crate::resources::{BufferData, Resources, slot};
-use crate::sentinel;
-use crate::texture::{SamplerSettings, TextureData, TextureDimension};
-use crate::uniforms;
+use crate::resolve::{Resolved, Value, resolve};
+use crate::resources::{BufferData, Resources};
+use crate::texture::{SamplerSettings, TextureData};
 use crate::upload;
-
-/// A binding that one or both stages have.
-struct Slot<'a> {
-    binding: &'a Binding,
-    entry: &'a Entry,
-    visibility: wgpu::ShaderStages,
-}
-
-/// The bindings of a pipeline, by (group, binding).
-type Slots<'a> = BTreeMap<(u32, u32), Slot<'a>>;
 
 /// A resource on the device.
 enum Resource {
@@ -81,8 +70,7 @@ pub(crate) fn bind(
     shaders: &[&Shader<'_>],
     resources: &Resources<'_>,
 ) -> Result<Bound, Error> {
-    let slots = merge(job, shaders)?;
-    check_buffers_are_known(job, &slots, resources)?;
+    let resolved = resolve(job, shaders, resources)?;
     let unchecked = shaders.iter().any(|shader| matches!(shader.code, Code::Spirv(_)));
     let binder = Binder {
         device,
@@ -90,99 +78,24 @@ pub(crate) fn bind(
         resources,
         unchecked,
     };
-    device.scoped(job, || binder.bind(&slots))
-}
-
-fn merge<'a>(job: &str, shaders: &[&Shader<'a>]) -> Result<Slots<'a>, Error> {
-    let mut slots = Slots::new();
-    for shader in shaders {
-        let visibility = pipeline::visibility(shader.entry.stage);
-        for binding in &shader.entry.bindings {
-            let new = Slot {
-                binding,
-                entry: shader.entry,
-                visibility,
-            };
-            let place = shader.place(binding);
-            let slot = slots.entry(place).or_insert(new);
-            agree(job, place, slot, shader.entry, binding)?;
-            slot.visibility |= visibility;
-        }
-    }
-    Ok(slots)
-}
-
-/// Two stages that share a place must mean the same by it.
-fn agree(
-    job: &str,
-    place: (u32, u32),
-    slot: &Slot<'_>,
-    entry: &Entry,
-    binding: &Binding,
-) -> Result<(), Error> {
-    let said = |binding: &Binding, entry: &Entry| {
-        let layout =
-            block(entry, binding).map_or_else(String::new, |block| format!(", {} bytes", block.size));
-        format!("{}: {}{layout}", binding.name, binding.ty)
-    };
-    let first = (&slot.binding.name, slot.binding.kind, &slot.binding.ty);
-    let same_type = first == (&binding.name, binding.kind, &binding.ty);
-    if same_type && block(slot.entry, slot.binding) == block(entry, binding) {
-        return Ok(());
-    }
-    let (group, binding_index) = place;
-    let (first, second) = (said(slot.binding, slot.entry), said(binding, entry));
-    Err(Error::StagesDisagree {
-        job: job.to_owned(),
-        group,
-        binding: binding_index,
-        first,
-        second,
-    })
-}
-
-fn block<'a>(entry: &'a Entry, binding: &Binding) -> Option<&'a bossage_translate::manifest::Block> {
-    entry
-        .uniforms
-        .iter()
-        .find(|block| (block.group, block.binding) == (binding.group, binding.binding))
-}
-
-/// A storage buffer that goes nowhere is a mistake; values, textures and samplers beyond what is asked for are not.
-fn check_buffers_are_known(job: &str, slots: &Slots<'_>, resources: &Resources<'_>) -> Result<(), Error> {
-    let is_known = |key: &String| slots.values().any(|slot| keys(slot.binding).contains(key));
-    match resources.buffers.keys().find(|key| !is_known(key)) {
-        None => Ok(()),
-        Some(name) => Err(Error::UnknownResource {
-            job: job.to_owned(),
-            name: name.clone(),
-            known: slots.values().map(|slot| slot.binding.name.clone()).collect(),
-        }),
-    }
-}
-
-/// The keys under which a resource of this binding is looked for.
-fn keys(binding: &Binding) -> [String; 2] {
-    [binding.name.clone(), slot(binding.group, binding.binding)]
-}
-
-fn look_up<'a, T>(table: &'a BTreeMap<String, T>, binding: &Binding) -> Option<&'a T> {
-    keys(binding).iter().find_map(|key| table.get(key))
+    device.scoped(job, || binder.bind(&resolved))
 }
 
 impl Binder<'_> {
-    fn bind(&self, slots: &Slots<'_>) -> Result<Bound, Error> {
+    fn bind(&self, resolved: &[Resolved<'_>]) -> Result<Bound, Error> {
         let mut made = Made::new();
         let mut written = Vec::new();
-        for (place, slot) in slots {
-            let (ty, resource) = self.resource(slot)?;
-            if let (Kind::StorageBuffer, Resource::Buffer(buffer)) = (slot.binding.kind, &resource) {
+        for one in resolved {
+            let (ty, resource) = self.resource(one)?;
+            if let (Kind::StorageBuffer, Resource::Buffer(buffer)) = (one.binding.kind, &resource) {
                 written.push(Written {
-                    name: slot.binding.name.clone(),
+                    name: one.binding.name.clone(),
                     buffer: buffer.clone(),
                 });
             }
-            made.insert(*place, (entry(place.1, slot.visibility, ty), resource));
+            let stages = one.stages.iter().map(|stage| pipeline::visibility(*stage));
+            let visibility = stages.fold(wgpu::ShaderStages::NONE, |all, stage| all | stage);
+            made.insert(one.place, (entry(one.place.1, visibility, ty), resource));
         }
         self.fill_gaps(&mut made);
         let layout = pipeline::layout(self.device, self.job, layout_entries(&made))?;
@@ -231,91 +144,54 @@ impl Binder<'_> {
         (0..).zip(&layout.groups).map(make).collect()
     }
 
-    fn resource(&self, slot: &Slot<'_>) -> Result<(wgpu::BindingType, Resource), Error> {
-        match slot.binding.kind {
-            Kind::UniformBuffer => self.uniform(slot),
-            Kind::ReadOnlyStorageBuffer | Kind::StorageBuffer => self.storage(slot),
-            Kind::Texture => self.texture(slot),
-            Kind::Sampler => self.sampler(slot),
-            Kind::DepthTexture | Kind::StorageTexture | Kind::ComparisonSampler => {
-                let problem = format!("the runner can't bind a {}", layout::describe(slot.binding));
-                Err(layout::misfit(slot.entry, &slot.binding.name, problem))
+    fn resource(&self, resolved: &Resolved<'_>) -> Result<(wgpu::BindingType, Resource), Error> {
+        let limits = self.device.limits();
+        match &resolved.value {
+            Value::Uniform(bytes) => {
+                let limit = limits.max_uniform_buffer_binding_size;
+                self.buffer(
+                    resolved,
+                    BufferData::Bytes(bytes),
+                    wgpu::BufferUsages::UNIFORM,
+                    limit,
+                )
             }
-        }
-    }
-
-    fn uniform(&self, slot: &Slot<'_>) -> Result<(wgpu::BindingType, Resource), Error> {
-        let block = block(slot.entry, slot.binding);
-        let block = block.ok_or_else(|| self.undescribed(slot))?;
-        let bytes = uniforms::pack(self.job, block, &self.resources.uniforms)?;
-        self.buffer(
-            slot,
-            &bytes,
-            wgpu::BufferUsages::UNIFORM,
-            self.device.limits().max_uniform_buffer_binding_size,
-        )
-    }
-
-    fn storage(&self, slot: &Slot<'_>) -> Result<(wgpu::BindingType, Resource), Error> {
-        let limit = self.device.limits().max_storage_buffer_binding_size;
-        match look_up(&self.resources.buffers, slot.binding) {
-            None => Err(self.missing(slot)),
-            Some(BufferData::Bytes(bytes)) => self.buffer(slot, bytes, wgpu::BufferUsages::STORAGE, limit),
-            Some(BufferData::Output(_)) if slot.binding.kind == Kind::ReadOnlyStorageBuffer => {
-                Err(self.wrong(slot, "an output".to_owned()))
+            Value::Storage(data) => {
+                let limit = limits.max_storage_buffer_binding_size;
+                self.buffer(resolved, *data, wgpu::BufferUsages::STORAGE, limit)
             }
-            Some(BufferData::Output(bytes)) => {
-                self.device
-                    .within(self.job, "a buffer's size in bytes", *bytes as u64, limit)?;
-                self.buffer(slot, &sentinel::fill(*bytes), wgpu::BufferUsages::STORAGE, limit)
-            }
+            Value::Texture(data) => self.texture(resolved, data),
+            Value::Sampler(settings) => Ok(self.sampler(settings)),
         }
     }
 
     fn buffer(
         &self,
-        slot: &Slot<'_>,
-        bytes: &[u8],
+        resolved: &Resolved<'_>,
+        data: BufferData<'_>,
         usage: wgpu::BufferUsages,
         limit: u64,
     ) -> Result<(wgpu::BindingType, Resource), Error> {
-        if bytes.is_empty() || !bytes.len().is_multiple_of(4) {
-            return Err(Error::Length {
-                job: self.job.to_owned(),
-                what: format!("buffer `{}` in bytes", slot.binding.name),
-                given: bytes.len(),
-                expected: bytes.len().next_multiple_of(4).max(4),
-            });
-        }
         self.device
-            .within(self.job, "a buffer's size in bytes", bytes.len() as u64, limit)?;
-        let ty = layout::buffer_type(slot.binding.kind).ok_or_else(|| self.undescribed(slot))?;
-        Ok((
-            ty,
-            Resource::Buffer(upload::buffer(self.device, self.job, bytes, usage)),
-        ))
+            .within(self.job, "a buffer's size in bytes", data.len() as u64, limit)?;
+        let ty = layout::buffer_type(resolved.binding.kind).ok_or_else(|| {
+            let problem = "the manifest calls it no buffer".to_owned();
+            layout::misfit(resolved.entry, &resolved.binding.name, problem)
+        })?;
+        let buffer = upload::buffer(self.device, self.job, &data.bytes(), usage);
+        Ok((ty, Resource::Buffer(buffer)))
     }
 
-    fn texture(&self, slot: &Slot<'_>) -> Result<(wgpu::BindingType, Resource), Error> {
-        let data: &TextureData =
-            look_up(&self.resources.textures, slot.binding).ok_or_else(|| self.missing(slot))?;
+    fn texture(
+        &self,
+        resolved: &Resolved<'_>,
+        data: &TextureData,
+    ) -> Result<(wgpu::BindingType, Resource), Error> {
         let filterable = !data.format.is_float() || self.device.filters_floats();
         self.check_filtering(filterable)?;
-        let ty = layout::texture_type(slot.entry, slot.binding, filterable)?;
-        let wanted = match ty {
-            wgpu::BindingType::Texture {
-                view_dimension: wgpu::TextureViewDimension::Cube,
-                ..
-            } => TextureDimension::Cube,
-            _ => TextureDimension::Plane,
-        };
-        if data.dimension != wanted {
-            return Err(self.wrong(slot, format!("{:?} texture", data.dimension).to_lowercase()));
-        }
-        Ok((
-            ty,
-            Resource::View(upload::texture(self.device, self.job, &slot.binding.name, data)?),
-        ))
+        let ty = layout::texture_type(data.dimension, filterable);
+        let view = upload::texture(self.device, self.job, &resolved.binding.name, data)?;
+        Ok((ty, Resource::View(view)))
     }
 
     /// wgpu checks what a shader filters, unless the shader is passed through: then the job may have no filtering sampler.
@@ -335,42 +211,13 @@ impl Binder<'_> {
         )
     }
 
-    fn sampler(&self, slot: &Slot<'_>) -> Result<(wgpu::BindingType, Resource), Error> {
-        let settings = look_up(&self.resources.samplers, slot.binding).ok_or_else(|| self.missing(slot))?;
+    fn sampler(&self, settings: &SamplerSettings) -> (wgpu::BindingType, Resource) {
         let ty = match settings.is_filtering() {
             true => wgpu::SamplerBindingType::Filtering,
             false => wgpu::SamplerBindingType::NonFiltering,
         };
         let sampler = upload::sampler(self.device, self.job, settings);
-        Ok((wgpu::BindingType::Sampler(ty), Resource::Sampler(sampler)))
-    }
-
-    fn missing(&self, slot: &Slot<'_>) -> Error {
-        Error::MissingResource {
-            job: self.job.to_owned(),
-            name: slot.binding.name.clone(),
-            group: slot.binding.group,
-            binding: slot.binding.binding,
-            kind: layout::describe(slot.binding),
-        }
-    }
-
-    fn wrong(&self, slot: &Slot<'_>, given: String) -> Error {
-        let (job, name) = (self.job.to_owned(), slot.binding.name.clone());
-        Error::WrongResource {
-            job,
-            name,
-            expected: layout::describe(slot.binding),
-            given,
-        }
-    }
-
-    fn undescribed(&self, slot: &Slot<'_>) -> Error {
-        layout::misfit(
-            slot.entry,
-            &slot.binding.name,
-            "the manifest doesn't describe its members".to_owned(),
-        )
+        (wgpu::BindingType::Sampler(ty), Resource::Sampler(sampler))
     }
 }
 

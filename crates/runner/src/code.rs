@@ -42,7 +42,7 @@ pub struct Shader<'a> {
     pub entry: &'a Entry,
 }
 
-impl Shader<'_> {
+impl<'a> Shader<'a> {
     /// The binding of that name.
     #[must_use]
     pub fn binding(&self, name: &str) -> Option<&Binding> {
@@ -51,7 +51,8 @@ impl Shader<'_> {
 
     /// What the entry point is called in this code. WGSL is either the source, with the source's name, or emitted, with the
     /// name that the manifest states for it.
-    pub(crate) fn entry_point(&self) -> &str {
+    #[must_use]
+    pub fn entry_point(&self) -> &'a str {
         let emitted = self
             .entry
             .entry_points
@@ -64,7 +65,8 @@ impl Shader<'_> {
     }
 
     /// Where a binding is in this code: (group, binding).
-    pub(crate) fn place(&self, binding: &Binding) -> (u32, u32) {
+    #[must_use]
+    pub fn place(&self, binding: &Binding) -> (u32, u32) {
         match (self.code, binding.spirv) {
             (Code::Spirv(_), Some(slot)) => (slot.set, slot.binding),
             (Code::Spirv(_), None) | (Code::Wgsl(_), _) => (binding.group, binding.binding),

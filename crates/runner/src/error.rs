@@ -54,6 +54,16 @@ pub enum Error {
         /// What it said.
         message: String,
     },
+    /// The machine began and gave up: a budget is used up, or the job asks for what it can't do after all.
+    #[error("`{job}`: {machine} gave up: {message}")]
+    GaveUp {
+        /// The job.
+        job: String,
+        /// The machine's name.
+        machine: String,
+        /// What it said.
+        message: String,
+    },
     /// The device is gone; every later job on it fails as well. Open a new one.
     #[error("`{job}`: the device was lost: {message}")]
     Lost {

@@ -3,6 +3,7 @@
 use bossage_translate::manifest::{Binding, Entry, Kind, Texture, Varying};
 
 use crate::error::Error;
+use crate::texture::TextureDimension;
 
 /// A value at a location: a vertex attribute or a fragment output, of 32-bit floats.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -80,12 +81,20 @@ pub(crate) fn buffer_type(kind: Kind) -> Option<wgpu::BindingType> {
     })
 }
 
-/// wgpu's type of a bound texture of floats, plane or cube.
-pub(crate) fn texture_type(
-    entry: &Entry,
-    binding: &Binding,
-    filterable: bool,
-) -> Result<wgpu::BindingType, Error> {
+/// wgpu's type of a bound texture of floats.
+pub(crate) fn texture_type(dimension: TextureDimension, filterable: bool) -> wgpu::BindingType {
+    wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable },
+        view_dimension: match dimension {
+            TextureDimension::Plane => wgpu::TextureViewDimension::D2,
+            TextureDimension::Cube => wgpu::TextureViewDimension::Cube,
+        },
+        multisampled: false,
+    }
+}
+
+/// Whether a bound texture of floats is a plane or a cube.
+pub(crate) fn texture_dimension(entry: &Entry, binding: &Binding) -> Result<TextureDimension, Error> {
     let texture = binding.texture.as_ref();
     let texture = texture.ok_or_else(|| {
         misfit(
@@ -94,27 +103,22 @@ pub(crate) fn texture_type(
             "the manifest doesn't describe it".to_owned(),
         )
     })?;
-    let view_dimension = view_dimension(texture).ok_or_else(|| {
+    dimension(texture).ok_or_else(|| {
         misfit(
             entry,
             &binding.name,
             format!("the runner has no textures of type {}", binding.ty),
         )
-    })?;
-    Ok(wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable },
-        view_dimension,
-        multisampled: false,
     })
 }
 
-fn view_dimension(texture: &Texture) -> Option<wgpu::TextureViewDimension> {
+fn dimension(texture: &Texture) -> Option<TextureDimension> {
     if texture.arrayed || texture.multisampled || texture.sample_type != "f32" {
         return None;
     }
     match texture.dimension.as_str() {
-        "2d" => Some(wgpu::TextureViewDimension::D2),
-        "cube" => Some(wgpu::TextureViewDimension::Cube),
+        "2d" => Some(TextureDimension::Plane),
+        "cube" => Some(TextureDimension::Cube),
         _ => None,
     }
 }

@@ -1,7 +1,9 @@
 //! What a job binds, by the names that the shader's variables have in the manifest.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use crate::sentinel;
 use crate::texture::{SamplerSettings, TextureData};
 
 /// A storage buffer.
@@ -11,6 +13,32 @@ pub enum BufferData<'a> {
     Bytes(&'a [u8]),
     /// So many bytes of [sentinel](crate::SENTINEL), read back afterwards.
     Output(usize),
+}
+
+impl BufferData<'_> {
+    /// How many bytes.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Bytes(bytes) => bytes.len(),
+            Self::Output(bytes) => *bytes,
+        }
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// What the buffer holds before the shader runs.
+    #[must_use]
+    pub fn bytes(&self) -> Cow<'_, [u8]> {
+        match self {
+            Self::Bytes(bytes) => Cow::Borrowed(bytes),
+            Self::Output(bytes) => Cow::Owned(sentinel::fill(*bytes)),
+        }
+    }
 }
 
 /// Everything that a job binds. Keys are names of variables; where a shader has no names (stripped SPIR-V), [`slot`]

@@ -17,11 +17,25 @@ pub enum Kernel {
     FrameFromUvVertices,
     /// One invocation a vertex, as published: gathers what [`Kernel::FrameFromUvTrianglesPublished`] wrote.
     FrameFromUvVerticesPublished,
+    /// The normalisation cube map, 8 bits a component.
+    NormalisationCubeMap,
+    /// The normalisation cube map, 16 bits a component.
+    NormalisationCubeMap16,
+    /// Bytes of a normal map to the base of its chain.
+    NormalMipsDecode,
+    /// One level of averages to the next.
+    NormalMips,
+    /// A level of averages to bytes.
+    NormalMipsEncode,
+    /// One invocation a direction, through a sampler.
+    NormalisationCubeMapLookup,
+    /// One invocation a direction, filtered within a face.
+    NormalisationCubeMapLookupInFace,
 }
 
 impl Kernel {
     /// Every kernel.
-    pub const ALL: [Kernel; 7] = [
+    pub const ALL: [Kernel; 14] = [
         Kernel::HeightToNormal,
         Kernel::HeightToNormalForward,
         Kernel::HeightToNormalForwardPublished,
@@ -29,6 +43,13 @@ impl Kernel {
         Kernel::FrameFromUvTrianglesPublished,
         Kernel::FrameFromUvVertices,
         Kernel::FrameFromUvVerticesPublished,
+        Kernel::NormalisationCubeMap,
+        Kernel::NormalisationCubeMap16,
+        Kernel::NormalMipsDecode,
+        Kernel::NormalMips,
+        Kernel::NormalMipsEncode,
+        Kernel::NormalisationCubeMapLookup,
+        Kernel::NormalisationCubeMapLookupInFace,
     ];
 
     /// The entry point, which is also the assembled module's name.
@@ -42,6 +63,13 @@ impl Kernel {
             Kernel::FrameFromUvTrianglesPublished => "frame_from_uv_triangles_published",
             Kernel::FrameFromUvVertices => "frame_from_uv_vertices",
             Kernel::FrameFromUvVerticesPublished => "frame_from_uv_vertices_published",
+            Kernel::NormalisationCubeMap => "bake_normalisation_cube_map",
+            Kernel::NormalisationCubeMap16 => "bake_normalisation_cube_map_16",
+            Kernel::NormalMipsDecode => "bake_normal_mips_decode",
+            Kernel::NormalMips => "bake_normal_mips",
+            Kernel::NormalMipsEncode => "bake_normal_mips_encode",
+            Kernel::NormalisationCubeMapLookup => "normalisation_cube_map_lookup",
+            Kernel::NormalisationCubeMapLookupInFace => "normalisation_cube_map_lookup_in_face",
         }
     }
 
@@ -51,11 +79,18 @@ impl Kernel {
         match self {
             Kernel::HeightToNormal
             | Kernel::HeightToNormalForward
-            | Kernel::HeightToNormalForwardPublished => [8, 8, 1],
+            | Kernel::HeightToNormalForwardPublished
+            | Kernel::NormalisationCubeMap
+            | Kernel::NormalisationCubeMap16
+            | Kernel::NormalMips => [8, 8, 1],
             Kernel::FrameFromUvTriangles
             | Kernel::FrameFromUvTrianglesPublished
             | Kernel::FrameFromUvVertices
-            | Kernel::FrameFromUvVerticesPublished => [64, 1, 1],
+            | Kernel::FrameFromUvVerticesPublished
+            | Kernel::NormalMipsDecode
+            | Kernel::NormalMipsEncode
+            | Kernel::NormalisationCubeMapLookup
+            | Kernel::NormalisationCubeMapLookupInFace => [64, 1, 1],
         }
     }
 
@@ -69,6 +104,15 @@ impl Kernel {
             | Kernel::FrameFromUvTrianglesPublished
             | Kernel::FrameFromUvVertices
             | Kernel::FrameFromUvVerticesPublished => "entry/frame_from_uv.wesl",
+            Kernel::NormalisationCubeMap | Kernel::NormalisationCubeMap16 => {
+                "entry/normalisation_cube_map.wesl"
+            }
+            Kernel::NormalMipsDecode | Kernel::NormalMips | Kernel::NormalMipsEncode => {
+                "entry/normal_mips.wesl"
+            }
+            Kernel::NormalisationCubeMapLookup | Kernel::NormalisationCubeMapLookupInFace => {
+                "entry/normalisation_cube_map_lookup.wesl"
+            }
         }
     }
 }

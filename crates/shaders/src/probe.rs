@@ -146,6 +146,8 @@ pub enum Role {
     UnormOne,
     /// A whole number in [0, 65535]: a code of an unsigned format.
     UnormCode,
+    /// A linear code of bytes: 0 `codec_unorm`, 1 `codec_biased`.
+    Codec,
     /// An edge mode: 0 wrap, 1 mirror, 2 clamp.
     EdgeMode,
     /// An output, to be compared component by component.

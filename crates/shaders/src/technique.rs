@@ -145,7 +145,7 @@ pub const TECHNIQUES: &[Technique] = &[
     },
     Technique {
         id: "normal_mips",
-        files: &["techniques/normal_mips.wesl"],
+        files: &["techniques/normal_mips.wesl", "entry/normal_mips.wesl"],
         forms: BOTH,
         source: HEIGHT_MAPS,
     },
@@ -157,7 +157,10 @@ pub const TECHNIQUES: &[Technique] = &[
     },
     Technique {
         id: "normalisation_cube_map",
-        files: &["techniques/normalisation_cube_map.wesl"],
+        files: &[
+            "techniques/normalisation_cube_map.wesl",
+            "entry/normalisation_cube_map.wesl",
+        ],
         forms: HARDENED,
         source: DOT3,
     },

@@ -204,18 +204,35 @@ pub(crate) fn float_to_int(w: Width, t: IntType, x: f64) -> i128 {
 pub(crate) fn float_to_bits(w: Width, x: f64) -> u64 {
     match w {
         Width::F16 => u64::from(half::f16::from_f64(w.round(x)).to_bits()),
-        Width::F32 => u64::from((x as f32).to_bits()),
+        Width::F32 => u64::from(nan_bits(x).unwrap_or((x as f32).to_bits())),
         Width::F64 => x.to_bits(),
     }
+}
+
+/// The bits of a NaN as an `f32`, sign and payload kept, which a conversion need not do.
+fn nan_bits(x: f64) -> Option<u32> {
+    let bits = x.to_bits();
+    x.is_nan()
+        .then_some(((bits >> 32) as u32 & 0x8000_0000) | 0x7fc0_0000 | ((bits >> 29) as u32 & 0x003f_ffff))
 }
 
 /// The float with a bit pattern.
 pub(crate) fn float_from_bits(w: Width, bits: u64) -> f64 {
     match w {
         Width::F16 => half::f16::from_bits(bits as u16).to_f64(),
-        Width::F32 => f64::from(f32::from_bits(bits as u32)),
+        Width::F32 => f32_from_bits(bits as u32),
         Width::F64 => f64::from_bits(bits),
     }
+}
+
+/// An `f32` by its bits; of a NaN sign and payload are kept, which a conversion need not do.
+fn f32_from_bits(bits: u32) -> f64 {
+    let x = f32::from_bits(bits);
+    if !x.is_nan() {
+        return f64::from(x);
+    }
+    let sign = u64::from(bits >> 31) << 63;
+    f64::from_bits(sign | 0x7ff8_0000_0000_0000 | (u64::from(bits & 0x003f_ffff) << 29))
 }
 
 /// The unsigned integer type of a scalar's size.

@@ -16,7 +16,7 @@ pub use format::TexelFormat;
 pub(crate) use format::storage_kind;
 
 use crate::error::{Error, Result};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Half the width, in texels, of the coordinates that hardware may take for one: 8 sub-texel bits, rounded or truncated.
 pub const SUBTEXEL: f64 = 1.0 / 256.0;
@@ -59,16 +59,6 @@ impl Level {
     }
 }
 
-impl Clone for Level {
-    fn clone(&self) -> Self {
-        Self {
-            size: self.size,
-            bytes: self.bytes.clone(),
-            bounds: OnceLock::new(),
-        }
-    }
-}
-
 /// A texture with its mip levels.
 #[derive(Clone, Debug)]
 pub struct Texture {
@@ -76,7 +66,8 @@ pub struct Texture {
     format: TexelFormat,
     layers: u32,
     samples: u32,
-    levels: Vec<Level>,
+    /// Shared, so that a clone of a texture costs nothing.
+    levels: Vec<Arc<Level>>,
 }
 
 impl Texture {
@@ -202,11 +193,11 @@ impl Texture {
             );
             return Err(Error::Texture { reason });
         }
-        self.levels.push(Level {
+        self.levels.push(Arc::new(Level {
             size,
             bytes,
             bounds: OnceLock::new(),
-        });
+        }));
         Ok(self)
     }
 

@@ -145,6 +145,7 @@ fn scalars(role: Role) -> Vec<f32> {
         Role::Size => vec![1.0, 2.0, 3.0, 255.0, 256.0, 16_384.0],
         Role::EdgeMode => vec![0.0, 1.0, 2.0],
         Role::Texel => vec![0.0, 1.0, 2.0, 63.0, 64.0, 127.0, 255.0, 16_383.0],
+        Role::Codec => vec![0.0, 1.0],
         Role::Face => vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0],
         Role::Gain => vec![0.0, 1.0, 40.0, 1e-6, 1000.0, SUBNORMAL],
         Role::Length => vec![1.0, 0.5, 1e-10, 1e10, f32::MIN_POSITIVE, 8e37],

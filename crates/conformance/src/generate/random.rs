@@ -72,6 +72,7 @@ fn scalar(role: Role, rng: &mut Pcg64Mcg) -> f32 {
         Role::Size => rng.random_range(1..=16_384u32) as f32,
         Role::EdgeMode => rng.random_range(0..3u32) as f32,
         Role::Texel => rng.random_range(0..16_384u32) as f32,
+        Role::Codec => rng.random_range(0..2u32) as f32,
         Role::Face => rng.random_range(0..6u32) as f32,
         Role::Gain => 64.0 * unorm,
         Role::Length => log_uniform(rng, -8.0, 8.0) as f32,

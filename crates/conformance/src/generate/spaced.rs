@@ -162,6 +162,7 @@ fn scalar(role: Role, place: &mut Place<'_>) -> f64 {
         Role::Index => place.whole(-70_000, 70_000),
         Role::Size => place.whole(1, 16_384),
         Role::Texel => place.whole(0, 16_383),
+        Role::Codec => place.either(0.0, 1.0),
         Role::Face => place.whole(0, 5),
         Role::EdgeMode => place.whole(0, 2),
         Role::SnormOne => place.either(127.0, 32_767.0),

@@ -109,6 +109,27 @@ const MUTANTS: &[Mutant] = &[
         filter: "frame_from_uv/hardened/mesh",
     },
     Mutant {
+        what: "a cube's rows the other way round",
+        file: "entry/normalisation_cube_map_lookup.wesl",
+        from: "let centre = (2.0 * at + 1.0 - size) / size;",
+        to: "let centre = (2.0 * vec2f(at.x, size - 1.0 - at.y) + 1.0 - size) / size;",
+        filter: "normalisation_cube_map/lookup:bits=08;filter=face;size=016",
+    },
+    Mutant {
+        what: "a filter's weights a hundredth of a texel off",
+        file: "entry/normalisation_cube_map_lookup.wesl",
+        from: "colours[id.x] = mix(near, far, at.fraction.y);",
+        to: "colours[id.x] = mix(near, far, at.fraction.y + 0.01);",
+        filter: "normalisation_cube_map/lookup:bits=08;filter=face;size=016",
+    },
+    Mutant {
+        what: "a sampler asked for the opposite direction",
+        file: "entry/normalisation_cube_map_lookup.wesl",
+        from: "surface_sampler, directions[id.x].xyz, 0.0);",
+        to: "surface_sampler, -directions[id.x].xyz, 0.0);",
+        filter: "normalisation_cube_map/lookup:bits=16;filter=sampler;size=064",
+    },
+    Mutant {
         what: "a published defect cured",
         file: "techniques/parallax_offset.wesl",
         from: "return uv + z * view_dir_ts.xy / view_dir_ts.z;",

@@ -5,24 +5,24 @@
 use std::collections::BTreeMap;
 
 use bossage_runner::{
-    BufferData, ComputeJob, Filter, ProbeJob, Resources, SamplerSettings, Shader, TexelFormat, TextureData,
-    TextureDimension, run_probe, slot, unwritten,
+    BufferData, ComputeJob, Filter, Machine, ProbeJob, Resources, SamplerSettings, Shader, TexelFormat,
+    TextureData, TextureDimension, run_probe, slot, unwritten,
 };
 
 use crate::support::{bits, compile, device};
 
-const DOUBLE: &str = "
+pub(crate) const DOUBLE: &str = "
 @group(0) @binding(0) var<storage, read> inputs: array<f32>;
 @group(0) @binding(1) var<storage, read_write> outputs: array<f32>;
 @compute @workgroup_size(64) fn double(@builtin(global_invocation_id) id: vec3u) {
     if id.x < arrayLength(&outputs) { outputs[id.x] = 2.0 * inputs[id.x]; }
 }";
 
-fn ramp(count: usize) -> Vec<f32> {
+pub(crate) fn ramp(count: usize) -> Vec<f32> {
     (0..count).map(|index| index as f32 - 300.0).collect()
 }
 
-fn probe<'a>(shader: Shader<'a>, inputs: &'a [f32], chunk_items: Option<usize>) -> ProbeJob<'a> {
+pub(crate) fn probe<'a>(shader: Shader<'a>, inputs: &'a [f32], chunk_items: Option<usize>) -> ProbeJob<'a> {
     ProbeJob {
         name: "probe",
         shader,
@@ -86,7 +86,7 @@ fn more_items_than_a_dispatch_takes_are_split() {
         return;
     };
     let one_a_group = compile(&DOUBLE.replace("@workgroup_size(64)", "@workgroup_size(1)"));
-    let items = device.limits().max_compute_workgroups_per_dimension as usize + 77;
+    let items = device.dispatch_limits().workgroups as usize + 77;
     // Exact: all integers here are below 2^24.
     let inputs: Vec<f32> = (0..items).map(|index| (index % 9973) as f32).collect();
     let outputs = probe(one_a_group.wgsl("double"), &inputs, None)
@@ -282,26 +282,4 @@ fn textures_mips_cubes_and_samplers_are_bound() {
             shader.code.route()
         );
     }
-}
-
-#[test]
-fn what_is_compiled_once_is_not_compiled_again() {
-    let Some(device) = device("what_is_compiled_once_is_not_compiled_again") else {
-        return;
-    };
-    // A text of its own, since the device is shared between tests that run at the same time.
-    let own = compile(&DOUBLE.replace("2.0 *", "32.0 *"));
-    let inputs = ramp(10);
-    probe(own.wgsl("double"), &inputs, None).run(device).unwrap();
-    let start = std::time::Instant::now();
-    for _ in 0..50 {
-        probe(own.wgsl("double"), &inputs, None).run(device).unwrap();
-    }
-    let sizes = device.cache_sizes();
-    // Every text of these tests is one module; 50 uncached runs would have added 50.
-    assert!(
-        sizes.modules < 50 && sizes.pipelines < 50,
-        "{sizes:?} after {:?}",
-        start.elapsed()
-    );
 }

@@ -1,7 +1,7 @@
 //! Cube textures: each face, level and format is where the graphics interfaces' tables say it is.
 
 use bossage_runner::{
-    BufferData, ComputeJob, Device, Error, Filter, Resources, SamplerSettings, Shader, TexelFormat,
+    BufferData, ComputeJob, Error, Filter, Machine, Resources, SamplerSettings, Shader, TexelFormat,
     TextureData,
 };
 
@@ -78,7 +78,7 @@ const LINEAR: SamplerSettings = SamplerSettings {
 
 /// What lookups give: directions and levels in, reds out.
 fn look(
-    device: &Device,
+    device: &dyn Machine,
     shader: Shader<'_>,
     sky: &TextureData,
     sampler: SamplerSettings,

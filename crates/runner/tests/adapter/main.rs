@@ -2,8 +2,13 @@
 //!
 //! Without an adapter these tests are skipped, each saying so with a running number; where `BOSSAGE_REQUIRE` lists
 //! `lavapipe`, they fail instead.
+//!
+//! `blending`, `compute`, `cubes` and `render` ask no more than what every `Machine` answers: the machine without a driver runs
+//! the very same tests.
 
 mod blending;
+mod caches;
+mod compiled;
 mod compute;
 mod cubes;
 mod errors;

@@ -29,11 +29,12 @@ pub(super) const ROWS: Rows = &[
         let centre = texel_centre(face as usize, x as i64, y as i64, size as u32);
         out3(normalize(centre))
     }),
-    ("normalisation_cube_map_encode", |a| {
-        let [x, y, z, largest] = a.array();
-        let code = |n| (depth(largest).store(codec_unorm::encode(n)) * largest).round();
-        [x, y, z].map(code).to_vec()
+    ("normalisation_cube_map_code", |a| {
+        let [face, x, y, size, largest] = a.array();
+        let centre = texel_centre(face as usize, x as i64, y as i64, size as u32);
+        codes(normalize(centre), largest)
     }),
+    ("normalisation_cube_map_encode", |a| codes(v3(a), a.scalar())),
     ("normalisation_cube_map_decode", |a| {
         let [x, y, z, largest] = a.array();
         [x, y, z].map(|code| codec_unorm::decode(code / largest)).to_vec()
@@ -58,6 +59,12 @@ fn footprint(st: DVec2, size: f64) -> Vec<f64> {
         .into_iter()
         .flat_map(out2)
         .collect()
+}
+
+/// What a map of that depth keeps of a normal.
+fn codes(normal: DVec3, largest: f64) -> Vec<f64> {
+    let code = |n| (depth(largest).store(codec_unorm::encode(n)) * largest).round();
+    normal.to_array().map(code).to_vec()
 }
 
 fn depth(largest_code: f64) -> Depth {

@@ -84,6 +84,13 @@ pub(super) const ROWS: Rows = &[
     ("normal_transform_published", |a| {
         out3(normal_transform::published(m3(a), v3(a), DVec4::X).normal)
     }),
+    ("bitangent_transform", |a| {
+        let frame = normal_transform::hardened(m3(a), v3(a), v4(a));
+        out3(normalize_or_zero(frame.bitangent))
+    }),
+    ("bitangent_transform_published", |a| {
+        out3(normal_transform::published(m3(a), v3(a), v4(a)).bitangent)
+    }),
     ("tangent_transform", |a| out3(normalize_or_zero(m3(a) * v3(a)))),
     ("tangent_transform_published", |a| out3(m3(a) * v3(a))),
 ];

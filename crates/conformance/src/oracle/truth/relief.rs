@@ -1,8 +1,8 @@
 //! Height fields: their normals, their levels, and relief.
 
 use bossage_reference::{
-    displacement, height_to_normal, height_to_normal_forward, normal_mips, parallax_offset,
-    parallax_offset_limited, parallax_slope_ao, parallax_slope_ao_directed,
+    codec_biased, codec_unorm, displacement, height_to_normal, height_to_normal_forward, normal_mips,
+    parallax_offset, parallax_offset_limited, parallax_slope_ao, parallax_slope_ao_directed,
 };
 use displacement::Tile;
 use glam::DVec2;
@@ -95,5 +95,18 @@ pub(super) const ROWS: Rows = &[
     }),
     ("normal_mips", |a| out3(normal_mips::naive(v3(a)))),
     ("normal_mips_published", |a| out3(v3(a))),
+    ("normal_mips_bytes", |a| {
+        let normal = normal_mips::naive(v3(a));
+        let encode = [codec_unorm::encode_byte, codec_biased::encode_hardened][a.scalar() as usize];
+        normal.to_array().map(|n| f64::from(encode(n))).to_vec()
+    }),
+    ("normal_mips_decode", |a| {
+        let (bytes, codec) = (v3(a), a.scalar());
+        let decode = |byte| match codec as u32 {
+            0 => codec_unorm::decode_byte(byte as u8),
+            _ => codec_biased::decode_hardened(byte),
+        };
+        bytes.to_array().map(decode).to_vec()
+    }),
     ("normal_mips_length", |a| vec![length_of(v3(a))]),
 ];

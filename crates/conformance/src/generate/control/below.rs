@@ -1,0 +1,59 @@
+//! The functions of `lib/`.
+
+use super::{IDENTITY, Known, known};
+
+pub(super) const ROWS: &[Known] = &[
+    // The saddle 0 1 / 1 0 at (1/4, 1/4): x + y − 2xy = 3/8, slopes 1 − 2y and 1 − 2x.
+    known("bilinear", &[0.0, 1.0, 1.0, 0.0, 0.25, 0.25], &[0.375]),
+    known(
+        "bilinear_gradient",
+        &[0.0, 1.0, 1.0, 0.0, 0.25, 0.75],
+        &[-0.5, 0.5],
+    ),
+    known("resolve_edge", &[-1.0, 4.0, 0.0], &[3.0]),
+    known("resolve_edge", &[-1.0, 4.0, 1.0], &[0.0]),
+    known("resolve_edge", &[4.0, 4.0, 1.0], &[3.0]),
+    known("resolve_edge", &[9.0, 4.0, 2.0], &[3.0]),
+    known("euclidean_remainder", &[-7.0, 4.0], &[1.0]),
+    // N = z, T = x: B = y, turned round by the handedness.
+    known(
+        "bitangent",
+        &[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 1.0],
+        &[0.0, 1.0, 0.0],
+    ),
+    known(
+        "bitangent",
+        &[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, -1.0],
+        &[0.0, -1.0, 0.0],
+    ),
+    // Interpolants are not normalised: twice the normal is twice the bitangent.
+    known(
+        "bitangent",
+        &[0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 1.0],
+        &[0.0, 2.0, 0.0],
+    ),
+    // A stretch of 2 along x: cof = diag(1, 2, 2), scaled by min(s) / (s₀ s₁ s₂) = 1/2.
+    known(
+        "cofactor_direction",
+        &[2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0],
+        &[0.5, 0.0, 1.0],
+    ),
+    known("mirror_sign", &IDENTITY, &[1.0]),
+    known(
+        "mirror_sign",
+        &[-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        &[-1.0],
+    ),
+    known("largest_component", &[1.0, -3.0, 2.0], &[3.0]),
+    known("normalise", &[0.0, 0.0, 0.0], &[0.0, 0.0, 0.0]),
+    known("normalise", &[3.0, 0.0, 4.0], &[0.6, 0.0, 0.8]),
+    known("normalise", &[0.0, 2e19, 0.0], &[0.0, 1.0, 0.0]),
+    known("normalise", &[0.0, 0.0, -1e-23], &[0.0, 0.0, -1.0]),
+    known("normalise_published", &[3.0, 0.0, 4.0], &[0.6, 0.0, 0.8]),
+    known("elevation", &[1.0, 0.5, -0.25], &[0.25]),
+    known("elevation", &[0.5, 0.5, -0.25], &[0.0]),
+    known("lambert", &[0.0, 0.0, 1.0, 0.0, 0.0, 1.0], &[1.0]),
+    known("lambert", &[0.0, 0.0, 1.0, 0.0, 0.0, -1.0], &[0.0]),
+    known("length_of", &[0.0, 3e20, 4e20], &[5e20]),
+    known("length_of", &[0.0, 0.0, 0.0], &[0.0]),
+];

@@ -1,0 +1,419 @@
+//! Normalisation cube maps on the adapter: what directions become, component by component and as angles, by size, depth and
+//! filter.
+//!
+//! Two filters. `face` filters four texels of one face in the shader, clamped at its border, as the third article's hardware
+//! did: the figures that are known for 8 bits are its. `sampler` is the adapter's own linear filter, which goes on across the
+//! edges of faces; there the clamp of half a texel is gone, and with it the larger part of the largest error.
+//!
+//! Directions are spread evenly over the cube's faces, of lengths 2⁻¹⁰ to 2¹⁰. Every component must lie in the range of the filtered
+//! surface around the place where the sample may lie, and the angle errors must be those of the f64 filter within
+//! [`ANGLE_SHARE`], for `face` at 8 bits those that are stated too.
+
+use std::sync::OnceLock;
+
+use bossage_assets::Texels as Stored;
+use bossage_assets::normalisation_cube_map::{Depth, NormalisationCubeMap};
+use bossage_reference::cube::{Seams, face_and_st, point, sample};
+use bossage_reference::normalisation_cube_map::{Depth as TruthDepth, Map, faces_evenly};
+use bossage_reference::sphere::angle_deg;
+use bossage_runner::{
+    AddressMode, BufferData, ComputeJob, Filter, Resources, SamplerSettings, TexelFormat, TextureData,
+};
+use bossage_shaders::Kernel;
+use glam::{DVec2, DVec3, DVec4};
+use rayon::prelude::*;
+
+use crate::bench::Bench;
+use crate::bounded::Bounded;
+use crate::case::{Case, Outcome, with_causes};
+use crate::case_id::CaseId;
+use crate::compare::{Comparison, Expected};
+use crate::module::Module;
+use crate::tolerance::{SUBTEXEL_BITS, UNDECIDED_LIMIT};
+use crate::verdict::Verdict;
+
+/// Directions a face where figures are stated. The largest angle found grows with their number: with this one it is what it was
+/// when it was stated.
+const STATED_DIRECTIONS: u32 = 20_000;
+/// Directions a face otherwise: both filters are asked with the same ones.
+const DIRECTIONS: u32 = 4_000;
+
+/// The share by which an angle error may differ from what it should be.
+const ANGLE_SHARE: f64 = 0.1;
+
+/// Angle errors at 8 bits, filtered within faces: texels a side, root mean square and largest, in degrees.
+const STATED_DEG: [(u32, f64, f64); 4] = [
+    (16, 0.39, 2.09),
+    (32, 0.18, 1.10),
+    (64, 0.131, 0.72),
+    (256, 0.129, 0.37),
+];
+
+/// One map with one filter.
+struct CubeCase {
+    id: CaseId,
+    size: u32,
+    depth: Depth,
+    kernel: Kernel,
+    directions: OnceLock<Vec<[f32; 4]>>,
+    expected: OnceLock<Vec<[Expected; 4]>>,
+}
+
+/// Every stated size, at 8 and 16 bits, with both filters.
+pub fn cases() -> impl Iterator<Item = Box<dyn Case>> {
+    let kernels = [
+        Kernel::NormalisationCubeMapLookup,
+        Kernel::NormalisationCubeMapLookupInFace,
+    ];
+    let depths = [Depth::Eight, Depth::Sixteen];
+    let all = STATED_DEG
+        .into_iter()
+        .flat_map(move |(size, ..)| depths.map(|depth| (size, depth)))
+        .flat_map(move |(size, depth)| kernels.map(|kernel| (size, depth, kernel)));
+    all.map(|(size, depth, kernel)| Box::new(CubeCase::new(size, depth, kernel)) as Box<dyn Case>)
+}
+
+/// Angle errors, in degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Angles {
+    rms: f64,
+    max: f64,
+}
+
+impl Angles {
+    fn of(errors: &[f64]) -> Self {
+        let squares: f64 = errors.iter().map(|error| error * error).sum();
+        Self {
+            rms: (squares / errors.len().max(1) as f64).sqrt(),
+            max: errors.iter().copied().fold(0.0, f64::max),
+        }
+    }
+
+    /// Whether both figures are these within [`ANGLE_SHARE`].
+    fn are(self, rms: f64, max: f64) -> bool {
+        let near = |found: f64, wanted: f64| (found - wanted).abs() <= ANGLE_SHARE * wanted;
+        near(self.rms, rms) && near(self.max, max)
+    }
+}
+
+impl CubeCase {
+    fn new(size: u32, depth: Depth, kernel: Kernel) -> Self {
+        let filter = match kernel {
+            Kernel::NormalisationCubeMapLookup => "sampler",
+            _ => "face",
+        };
+        let id = CaseId::new("normalisation_cube_map", None, "lookup")
+            .with("bits", bits(depth))
+            .with("filter", filter)
+            .with("size", format!("{size:03}"));
+        Self {
+            id,
+            size,
+            depth,
+            kernel,
+            directions: OnceLock::new(),
+            expected: OnceLock::new(),
+        }
+    }
+
+    /// The root mean square and the largest error that are stated for this case.
+    fn stated(&self) -> Option<(f64, f64)> {
+        let of_size = STATED_DEG.into_iter().find(|(size, ..)| *size == self.size);
+        let (_, rms, max) = of_size.filter(|_| self.is_in_face() && self.depth == Depth::Eight)?;
+        Some((rms, max))
+    }
+
+    fn is_in_face(&self) -> bool {
+        self.kernel == Kernel::NormalisationCubeMapLookupInFace
+    }
+
+    fn map(&self) -> Map {
+        Map {
+            size: self.size,
+            depth: match self.depth {
+                Depth::Eight => TruthDepth::Eight,
+                Depth::Sixteen => TruthDepth::Sixteen,
+            },
+            seams: if self.is_in_face() {
+                Seams::Face
+            } else {
+                Seams::Seamless
+            },
+        }
+    }
+
+    /// The directions, as floats: truth is taken of these. Lengths are powers of two, so they turn nothing.
+    fn directions(&self) -> &[[f32; 4]] {
+        self.directions.get_or_init(|| {
+            let of = |(index, direction): (usize, DVec3)| {
+                let length = 2f64.powi(index as i32 % 21 - 10);
+                (length * direction).extend(0.0).as_vec4().to_array()
+            };
+            let count = self.stated().map_or(DIRECTIONS, |_| STATED_DIRECTIONS);
+            faces_evenly(count).enumerate().map(of).collect()
+        })
+    }
+
+    fn texture(&self) -> Result<TextureData, String> {
+        let map =
+            NormalisationCubeMap::generate(self.size, self.depth).map_err(|error| with_causes(&error))?;
+        let faces = map.faces.each_ref().map(|face| match face {
+            Stored::Unorm8(codes) => bytemuck::cast_slice::<_, u8>(codes),
+            Stored::Unorm16(codes) => bytemuck::cast_slice(codes),
+            Stored::Float32(values) => bytemuck::cast_slice(values),
+        });
+        let format = match self.depth {
+            Depth::Eight => TexelFormat::Rgba8Unorm,
+            Depth::Sixteen => TexelFormat::Rgba16Unorm,
+        };
+        TextureData::cube("normalisation_map", self.size, format, &faces).map_err(|error| with_causes(&error))
+    }
+
+    /// What the adapter makes of the directions.
+    fn colours(&self, bench: &Bench<'_>) -> Result<Vec<f32>, String> {
+        let module = bench.module(&Module::Kernel(self.kernel))?;
+        let shader = module.shader(self.kernel.entry())?;
+        let (texture, directions) = (self.texture()?, self.directions());
+        let filter = if self.is_in_face() {
+            Filter::Nearest
+        } else {
+            Filter::Linear
+        };
+        let sampler = SamplerSettings {
+            address: AddressMode::Clamp,
+            filter,
+            mip_filter: Filter::Nearest,
+            anisotropy: 1,
+        };
+        let mut resources = Resources::default();
+        resources
+            .textures
+            .insert("normalisation_map".to_owned(), &texture);
+        resources.samplers.insert("surface_sampler".to_owned(), sampler);
+        let inputs = BufferData::Bytes(bytemuck::cast_slice(directions));
+        resources.buffers.insert("directions".to_owned(), inputs);
+        let outputs = BufferData::Output(16 * directions.len());
+        resources.buffers.insert("colours".to_owned(), outputs);
+        let name = self.id.to_string();
+        let items = directions.len() as u32;
+        let job = ComputeJob {
+            name: &name,
+            shader,
+            resources,
+            workgroups: [items.div_ceil(self.kernel.workgroup_size()[0]), 1, 1],
+        };
+        let output = job.run(bench.device).map_err(|error| with_causes(&error))?;
+        Ok(output.floats("colours"))
+    }
+
+    fn expected(&self) -> &[[Expected; 4]] {
+        self.expected.get_or_init(|| {
+            let texels = Texels::new(self.map());
+            let of = |direction: &[f32; 4]| self.bound(&texels, vector(direction));
+            self.directions().par_iter().map(of).collect()
+        })
+    }
+
+    /// The range of the filtered colour over the square of places at which the sample may lie.
+    fn bound(&self, texels: &Texels, direction: DVec3) -> [Expected; 4] {
+        let (face, st) = face_and_st(direction);
+        let at = st * f64::from(self.size) - 0.5;
+        let radius = self.radius_texels();
+        let (low, high) = (at - radius, at + radius);
+        let nominal = texels.sample(direction).to_array();
+        let mut range = (nominal, nominal);
+        for (x, y) in stations(low, high) {
+            // Beyond the border of a face filtered alone lies its border texel, beyond that of others the next face.
+            let place = (DVec2::new(x, y) + 0.5) / f64::from(self.size);
+            let colour = match self.is_in_face() {
+                true => texels.sample_in_face(face, place),
+                false => texels.sample(point(face, place)),
+            };
+            for (channel, value) in colour.to_array().into_iter().enumerate() {
+                range.0[channel] = range.0[channel].min(value);
+                range.1[channel] = range.1[channel].max(value);
+            }
+        }
+        let slack = self.slack();
+        std::array::from_fn(|channel| Expected {
+            truth: nominal[channel],
+            bound: Bounded::between(
+                nominal[channel],
+                range.0[channel] - slack,
+                range.1[channel] + slack,
+            ),
+        })
+    }
+
+    /// How far from its true place a sample may be taken, in texels. The place on the face is a quotient (2.5 ULP of at most 1),
+    /// halved, shifted by ½, scaled by the size and shifted by ½ again, each rounded: 8·2⁻²⁴ of the size is above their sum. A
+    /// sampler keeps [`SUBTEXEL_BITS`] of the weights besides.
+    fn radius_texels(&self) -> f64 {
+        let rounding = 8.0 * 2f64.powi(-24) * f64::from(self.size);
+        let weights = if self.is_in_face() {
+            0.0
+        } else {
+            2f64.powi(-SUBTEXEL_BITS)
+        };
+        rounding + weights
+    }
+
+    /// What the filter's arithmetic may add. Our own: reading a code is a product with a rounded constant and a rounding (2 ULP below
+    /// 1), and two mixes in turn are three roundings each: 8·2⁻²⁴. A sampler's: two steps of the texels' integers, one along each
+    /// axis, where it filters in integers, and the same roundings.
+    fn slack(&self) -> f64 {
+        let rounding = 8.0 * 2f64.powi(-24);
+        if self.is_in_face() {
+            return rounding;
+        }
+        let step = match self.depth {
+            Depth::Eight => 1.0 / 255.0,
+            Depth::Sixteen => 1.0 / 65535.0,
+        };
+        2.0 * step + rounding
+    }
+
+    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
+        let colours = self.colours(bench)?;
+        let (directions, expected) = (self.directions(), self.expected());
+        let found = colours.as_chunks::<4>().0;
+        if found.len() != directions.len() {
+            return Err(format!("{} colours of {}", found.len(), directions.len()));
+        }
+        let mut comparison = Comparison::default();
+        for ((direction, got), expected) in directions.iter().zip(found).zip(expected) {
+            comparison.item(&direction[..3], got, expected);
+        }
+        let errors = |colour: &dyn Fn(usize) -> DVec3| -> Angles {
+            let of = |at: usize| angle_deg(2.0 * colour(at) - 1.0, vector(&directions[at]));
+            Angles::of(&(0..directions.len()).map(of).collect::<Vec<_>>())
+        };
+        let got = errors(&|at| vector(&found[at]));
+        let truth = errors(&|at| DVec3::from_array([0, 1, 2].map(|channel| expected[at][channel].truth)));
+        let outcome = Outcome::of(directions.len(), comparison, UNDECIDED_LIMIT);
+        Ok(self.with_angles(outcome, got, truth))
+    }
+
+    /// Adds what the angle errors are to the report, and fails where they are not what they should be.
+    fn with_angles(&self, outcome: Outcome, got: Angles, truth: Angles) -> Outcome {
+        let said = |angles: Angles| format!("rms {:.4}°, largest {:.3}°", angles.rms, angles.max);
+        let mut note = format!("angle errors: {}; the f64 filter has {}", said(got), said(truth));
+        let mut fails = !got.are(truth.rms, truth.max);
+        if let Some((rms, max)) = self.stated() {
+            note = format!("{note}; stated: rms {rms}°, largest {max}°");
+            fails |= !got.are(rms, max);
+        } else if !self.is_in_face() {
+            note =
+                format!("{note}; less than within a face, since a sampler goes on across the edges of faces");
+        }
+        if outcome.verdict != Verdict::Pass {
+            return outcome;
+        }
+        Outcome {
+            verdict: if fails { Verdict::Fail } else { Verdict::Pass },
+            reason: Some(note),
+            ..outcome
+        }
+    }
+}
+
+fn bits(depth: Depth) -> &'static str {
+    match depth {
+        Depth::Eight => "08",
+        Depth::Sixteen => "16",
+    }
+}
+
+fn vector(v: &[f32; 4]) -> DVec3 {
+    DVec4::from_array(v.map(f64::from)).truncate()
+}
+
+/// The corners of the pieces into which texel lines cut a square: the filtered surface has its extremes there.
+fn stations(low: DVec2, high: DVec2) -> impl Iterator<Item = (f64, f64)> {
+    let along = |low: f64, high: f64| {
+        let lines = (low.floor() as i64 + 1..).map(|line| line as f64);
+        let inner = lines.take_while(move |line| *line < high);
+        [low, high].into_iter().chain(inner).collect::<Vec<_>>()
+    };
+    let (xs, ys) = (along(low.x, high.x), along(low.y, high.y));
+    ys.into_iter()
+        .flat_map(move |y| xs.clone().into_iter().map(move |x| (x, y)))
+}
+
+/// The reference's texels, computed once.
+struct Texels {
+    map: Map,
+    colours: Vec<DVec4>,
+}
+
+impl Texels {
+    fn new(map: Map) -> Self {
+        let side = map.size;
+        let of = |at: u32| {
+            let (face, rest) = (at / (side * side), at % (side * side));
+            map.texel(face as usize, rest % side, rest / side).extend(1.0)
+        };
+        let colours = (0..6 * side * side).into_par_iter().map(of).collect();
+        Self { map, colours }
+    }
+
+    fn texel(&self, face: usize, x: u32, y: u32) -> DVec4 {
+        self.colours[(face as u32 * self.map.size * self.map.size + y * self.map.size + x) as usize]
+    }
+
+    fn sample(&self, direction: DVec3) -> DVec4 {
+        sample(direction, self.map.size, self.map.seams, |face, x, y| {
+            self.texel(face, x, y)
+        })
+    }
+
+    /// As [`Self::sample`] within a face, at a place that may lie a little beyond it.
+    fn sample_in_face(&self, face: usize, st: DVec2) -> DVec4 {
+        let p = st * f64::from(self.map.size) - 0.5;
+        let cell = p.floor();
+        let clamp = |i: f64| i.clamp(0.0, f64::from(self.map.size - 1)) as u32;
+        let texel = |dx: f64, dy: f64| self.texel(face, clamp(cell.x + dx), clamp(cell.y + dy));
+        let f = p - cell;
+        let near = texel(0.0, 0.0).lerp(texel(1.0, 0.0), f.x);
+        near.lerp(texel(0.0, 1.0).lerp(texel(1.0, 1.0), f.x), f.y)
+    }
+}
+
+impl Case for CubeCase {
+    fn id(&self) -> &CaseId {
+        &self.id
+    }
+
+    fn basis(&self) -> Vec<&'static str> {
+        vec!["reference f64", "range of the filter", "stated angle errors"]
+    }
+
+    fn modules(&self) -> Result<Vec<Module>, String> {
+        Ok(vec![Module::Kernel(self.kernel)])
+    }
+
+    fn run(&self, bench: &Bench<'_>) -> Outcome {
+        self.judge(bench).unwrap_or_else(Outcome::failed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_off_by_more_than_a_tenth_are_not_the_same() {
+        let angles = Angles::of(&[3.0, 4.0, 0.0, 0.0]);
+        assert_eq!(angles, Angles { rms: 2.5, max: 4.0 });
+        assert!(angles.are(2.6, 3.8) && !angles.are(2.2, 4.0) && !angles.are(2.5, 4.5));
+    }
+
+    #[test]
+    fn a_sample_beyond_the_border_of_its_face_is_the_border() {
+        let texels = Texels::new(Map::new(4, TruthDepth::Exact));
+        let corner = texels.sample_in_face(2, DVec2::splat(-0.1));
+        assert_eq!(corner, texels.texel(2, 0, 0));
+        let middle = point(2, DVec2::splat(0.5));
+        assert!((texels.sample_in_face(2, DVec2::splat(0.5)) - texels.sample(middle)).length() < 1e-15);
+    }
+}

@@ -1,0 +1,55 @@
+//! Dispatches.
+
+use std::collections::BTreeMap;
+
+use bossage_bounds::{Limits, run_compute};
+use bossage_runner::{ComputeJob, ComputeOutput, Error, Machine, Value, resolve};
+use bossage_translate::Stage;
+use bossage_translate::manifest::Kind;
+
+use crate::bind::bindings;
+use crate::failure::{misfit, of_job, within};
+use crate::machine::Embedded;
+
+/// Runs a dispatch; gives back all buffers that it may write.
+pub(crate) fn run(machine: &Embedded, job: &ComputeJob<'_>) -> Result<ComputeOutput, Error> {
+    let entry = job.shader.entry;
+    if entry.stage != Stage::Compute {
+        return Err(misfit(entry, job.name, format!("it is a {} shader", entry.stage)));
+    }
+    let limit = u64::from(machine.dispatch_limits().workgroups);
+    for count in job.workgroups {
+        within(
+            job.name,
+            "the number of workgroups along an axis",
+            u64::from(count),
+            limit,
+        )?;
+    }
+    let resolved = resolve(job.name, &[&job.shader], &job.resources)?;
+    let mut bindings = bindings(machine, job.name, &resolved)?;
+    let compiled = machine.programs.get(job.name, &job.shader)?;
+    run_compute(
+        &compiled.program,
+        &mut bindings,
+        job.workgroups,
+        &Limits::default(),
+    )
+    .map_err(|refusal| of_job(job.name, refusal))?;
+    let mut buffers = BTreeMap::new();
+    for one in resolved
+        .iter()
+        .filter(|one| one.binding.kind == Kind::StorageBuffer)
+    {
+        let Value::Storage(data) = &one.value else {
+            continue;
+        };
+        let mut bytes = data.bytes().into_owned();
+        let (group, binding) = one.place;
+        bindings
+            .read_bytes(&compiled.program, group, binding, &mut bytes)
+            .ok_or_else(|| misfit(entry, &one.binding.name, "it can't be read back".to_owned()))?;
+        buffers.insert(one.binding.name.clone(), bytes);
+    }
+    Ok(ComputeOutput { buffers })
+}

@@ -1,0 +1,56 @@
+//! Textures and samplers of jobs, as the evaluator's.
+
+use bossage_bounds::{AddressMode, Dimension, Filter, Sampler, TexelFormat, Texture};
+use bossage_runner::{
+    AddressMode as JobAddress, Error, Filter as JobFilter, SamplerSettings, TexelFormat as JobFormat,
+    TextureData, TextureDimension,
+};
+
+use crate::failure;
+
+/// A texture with all its levels.
+pub(crate) fn texture(job: &str, data: &TextureData) -> Result<Texture, Error> {
+    let dimension = match data.dimension {
+        TextureDimension::Plane => Dimension::D2,
+        TextureDimension::Cube => Dimension::Cube,
+    };
+    let format = match data.format {
+        JobFormat::Rgba8Unorm => TexelFormat::Rgba8Unorm,
+        JobFormat::Rgba16Unorm => TexelFormat::Rgba16Unorm,
+        JobFormat::Rgba32Float => TexelFormat::Rgba32Float,
+        JobFormat::R32Float => TexelFormat::R32Float,
+    };
+    let (first, rest) = data.levels.split_first().ok_or_else(|| Error::Texture {
+        name: job.to_owned(),
+        problem: "it has no level".to_owned(),
+    })?;
+    let size = [data.width, data.height, 1];
+    let whole = Texture::new(dimension, format, size, data.dimension.layers(), first.clone());
+    let chain = rest.iter().fold(whole, |texture, level| {
+        texture.and_then(|texture| texture.with_level(level.clone()))
+    });
+    chain.map_err(|refusal| failure::of_job(job, refusal))
+}
+
+/// A sampler.
+pub(crate) fn sampler(job: &str, settings: &SamplerSettings) -> Result<Sampler, Error> {
+    if settings.anisotropy > 1 {
+        return Err(failure::unsupported(job, "anisotropic filtering"));
+    }
+    let filter = |filter: JobFilter| match filter {
+        JobFilter::Nearest => Filter::Nearest,
+        JobFilter::Linear => Filter::Linear,
+    };
+    let address = match settings.address {
+        JobAddress::Wrap => AddressMode::Repeat,
+        JobAddress::Mirror => AddressMode::MirrorRepeat,
+        JobAddress::Clamp => AddressMode::ClampToEdge,
+    };
+    Ok(Sampler {
+        address: [address; 3],
+        mag: filter(settings.filter),
+        min: filter(settings.filter),
+        mip: filter(settings.mip_filter),
+        ..Sampler::default()
+    })
+}
