@@ -56,6 +56,8 @@ pub struct Defect {
     pub evidence: Evidence,
     /// The defect in a sentence.
     pub about: &'static str,
+    /// What the hardened form does instead, or why nothing can be done.
+    pub cure: &'static str,
 }
 
 /// All known defects that a single function shows.

@@ -11,6 +11,7 @@ use bossage_reference::vector::normalize;
 use bossage_runner::{BufferData, ComputeJob, Resources};
 use bossage_shaders::{Form, Kernel};
 use glam::{DVec2, DVec3, DVec4, Vec2, Vec3};
+use rand::RngExt;
 
 use crate::bench::Bench;
 use crate::bounded::Bounded;
@@ -18,19 +19,20 @@ use crate::bounded::vector::{Vec3 as Bounded3, add, normalize as bounded_normali
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
+use crate::generate::random::stream;
 use crate::module::Module;
 use crate::oracle::Args;
 use crate::tolerance;
 
 /// One mesh with one form.
-struct MeshCase {
+pub(super) struct MeshCase {
     id: CaseId,
     form: Form,
     mesh: Mesh,
 }
 
 /// The meshes by name.
-fn meshes() -> Vec<(&'static str, Mesh)> {
+pub(super) fn meshes() -> Vec<(&'static str, Mesh)> {
     let mut mirrored = primitives::plane(2.0, 2.0);
     mirrored.uvs.iter_mut().for_each(|uv| uv.x = (uv.x - 0.5).abs());
     let mut flat_uv = primitives::cube(1.0);
@@ -53,7 +55,75 @@ fn meshes() -> Vec<(&'static str, Mesh)> {
         ("folded_plane", mirrored),
         ("no_texture_area", flat_uv),
         ("degenerate", degenerate()),
+        (
+            "mirrored_torus",
+            scaled(primitives::torus(1.0, 0.25, 24, 12), Vec3::new(-1.0, 1.0, 1.0)),
+        ),
+        (
+            "scaled_cube",
+            scaled(primitives::cube(1.0), Vec3::new(-4.0, 0.25, 1.0)),
+        ),
+        ("sliver", sliver()),
+        ("soup", soup()),
     ]
+}
+
+/// A mesh scaled along its axes, its normals kept at right angles to it and outward, and its triangles wound that way.
+fn scaled(mut mesh: Mesh, scale: Vec3) -> Mesh {
+    for position in &mut mesh.positions {
+        *position *= scale;
+    }
+    for normal in &mut mesh.normals {
+        *normal = (*normal / scale).normalize();
+    }
+    if scale.element_product() < 0.0 {
+        mesh.indices
+            .chunks_exact_mut(3)
+            .for_each(|corners| corners.swap(1, 2));
+    }
+    mesh
+}
+
+/// A good triangle beside a needle without area and one whose texture is a needle.
+fn sliver() -> Mesh {
+    let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(0.5, 1e-9, 0.0), Vec3::ONE];
+    let uvs = vec![
+        Vec2::ZERO,
+        Vec2::X,
+        Vec2::Y,
+        Vec2::new(0.5, 0.5),
+        Vec2::new(0.5, 1e-8),
+    ];
+    Mesh {
+        normals: vec![Vec3::Z; 5],
+        positions,
+        uvs,
+        tangents: Vec::new(),
+        indices: vec![0, 1, 2, 0, 1, 3, 0, 1, 4],
+    }
+}
+
+/// Triangles that share vertices at random, with texture coordinates of one byte: many are degenerate in one way or another.
+fn soup() -> Mesh {
+    let mut rng = stream("soup", 1);
+    let mut coordinate = move |steps: u32| rng.random_range(0..=steps) as f32 / steps as f32;
+    let positions: Vec<Vec3> = (0..64)
+        .map(|_| Vec3::new(coordinate(7), coordinate(7), coordinate(7)))
+        .collect();
+    let uvs = (0..64)
+        .map(|_| Vec2::new(coordinate(15), coordinate(15)))
+        .collect();
+    let normals = (0..64)
+        .map(|_| (Vec3::new(coordinate(255), coordinate(255), coordinate(255)) - 0.5).normalize_or(Vec3::Z))
+        .collect();
+    let indices = (0..3 * 128).map(|_| (coordinate(63) * 63.0) as u32).collect();
+    Mesh {
+        positions,
+        normals,
+        uvs,
+        tangents: Vec::new(),
+        indices,
+    }
 }
 
 /// Two triangles that share an edge, the second's texture mirrored: at the shared vertices T cancels.
@@ -89,11 +159,7 @@ pub fn cases() -> impl Iterator<Item = Box<dyn Case>> {
     meshes().into_iter().flat_map(move |(name, mesh)| {
         both.map(|form| {
             let id = CaseId::new("frame_from_uv", Some(form.as_str()), "mesh").with("mesh", name);
-            Box::new(MeshCase {
-                id,
-                form,
-                mesh: mesh.clone(),
-            }) as Box<dyn Case>
+            Box::new(MeshCase::new(id, form, mesh.clone())) as Box<dyn Case>
         })
     })
 }
@@ -121,7 +187,11 @@ fn float_bytes(values: impl IntoIterator<Item = f32>) -> Vec<u8> {
 }
 
 impl MeshCase {
-    fn kernels(&self) -> [Kernel; 2] {
+    pub(super) fn new(id: CaseId, form: Form, mesh: Mesh) -> Self {
+        Self { id, form, mesh }
+    }
+
+    pub(super) fn kernels(&self) -> [Kernel; 2] {
         match self.form {
             Form::Published => [
                 Kernel::FrameFromUvTrianglesPublished,
@@ -189,7 +259,7 @@ impl MeshCase {
     }
 
     /// The tangents, four floats a vertex.
-    fn tangents(&self, bench: &Bench<'_>) -> Result<Vec<f32>, String> {
+    pub(super) fn tangents(&self, bench: &Bench<'_>) -> Result<Vec<f32>, String> {
         let [triangles, vertices] = self.kernels();
         let (triangle_count, vertex_count) = (self.mesh.indices.len() / 3, self.mesh.positions.len());
         let mut buffers = self.buffers();

@@ -3,6 +3,7 @@
 pub mod bake;
 pub mod defect;
 pub mod mesh;
+pub mod mikktspace;
 pub mod normalisation_cube_map;
 pub mod probe;
 pub mod scene;
@@ -30,6 +31,7 @@ pub fn cases(scope: &Scope) -> Vec<Box<dyn Case>> {
     cases.extend(defect::cases());
     cases.extend(bake::cases());
     cases.extend(mesh::cases());
+    cases.extend(mikktspace::cases());
     cases.extend(normalisation_cube_map::cases());
     cases.extend(scene::cases(&scope.scenes));
     cases.sort_by(|a, b| a.id().cmp(b.id()));

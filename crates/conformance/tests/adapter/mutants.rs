@@ -130,6 +130,13 @@ const MUTANTS: &[Mutant] = &[
         filter: "normalisation_cube_map/lookup:bits=16;filter=sampler;size=064",
     },
     Mutant {
+        what: "tangents along the other texture axis",
+        file: "techniques/frame_from_uv.wesl",
+        from: "let tangent = (p * st2.y - q * st1.y) * side;",
+        to: "let tangent = (p * st2.x - q * st1.x) * side;",
+        filter: "frame_mikktspace/mesh",
+    },
+    Mutant {
         what: "a published defect cured",
         file: "techniques/parallax_offset.wesl",
         from: "return uv + z * view_dir_ts.xy / view_dir_ts.z;",

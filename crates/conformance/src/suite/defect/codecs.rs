@@ -13,6 +13,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: |out| ensure(out[0] >= -1.0, || format!("byte 0 decodes to {}", out[0])),
         evidence: Evidence::Output,
         about: "byte 0 decodes to −1.0079",
+        cure: "byte 0 counts as −1",
     },
     Defect {
         name: "truncation",
@@ -27,6 +28,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "truncation errs by up to a whole step instead of half of one",
+        cure: "rounds to the nearest byte",
     },
     Defect {
         name: "code_mixed",
@@ -44,6 +46,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "a map written by codec_biased and read by codec_unorm, as the article does: −1 and 0 come back as −0.992 and 0.0039",
+        cure: "one code for both ways: 1 is −1, 128 is 0",
     },
     Defect {
         name: "no_zero",
@@ -58,6 +61,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "no byte stands for 0: a flat map tilts by 0.318°",
+        cure: "none in this code: codec_biased and codec_snorm hold 0",
     },
     Defect {
         name: "outside_the_circle",
@@ -68,6 +72,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: finite,
         evidence: Evidence::Output,
         about: "x² + y² > 1 has no z: the root of a negative number",
+        cure: "nothing left for z: z = 0",
     },
     Defect {
         name: "edge_of_the_circle",
@@ -78,6 +83,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: finite,
         evidence: Evidence::Rules,
         about: "at x² + y² = 1 the root is √0, which the language leaves open",
+        cure: "nothing left for z: z = 0, without a root",
     },
     Defect {
         name: "sign_of_zero",
@@ -92,6 +98,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "sign(0) is 0: −z is folded onto the point of +z",
+        cure: "the sign of zero is +1: (1, 1)",
     },
     Defect {
         name: "meridian",
@@ -106,6 +113,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "sign(0) is 0: directions of the lower half with x = 0 collapse onto an axis",
+        cure: "the sign of zero is +1",
     },
     Defect {
         name: "no_direction",
@@ -116,5 +124,6 @@ pub(super) const ROWS: &[Defect] = &[
         property: finite,
         evidence: Evidence::Output,
         about: "the zero vector is divided by the sum of its components",
+        cure: "(0, 0), which is +z",
     },
 ];

@@ -13,6 +13,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: |out| orthonormal([-0.577_350_26, 0.577_350_26, 0.577_350_26], out),
         evidence: Evidence::Output,
         about: "for N along (−1, 1, 1) the helper axis A is −N: no tangent is left",
+        cure: "an orthonormal frame, without a helper axis",
     },
     Defect {
         name: "axis_near",
@@ -23,6 +24,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: |out| orthonormal([-0.577_350_3, 0.577_350_26, 0.577_350_3], out),
         evidence: Evidence::Output,
         about: "next to (−1, 1, 1) the tangent is a difference of equal products: the frame is skewed by a tenth",
+        cure: "an orthonormal frame",
     },
     Defect {
         name: "axes_not_unit",
@@ -33,6 +35,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: |out| orthonormal([0.6, 0.0, 0.8], out),
         evidence: Evidence::Output,
         about: "T = N × A is as long as the sine of the angle between them",
+        cure: "unit axes",
     },
     Defect {
         name: "left_handed",
@@ -47,6 +50,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "B = T × N is the mirror image of B = cross(N, T)",
+        cure: "B = N × T",
     },
     Defect {
         name: "frisvad_near_minus_z",
@@ -57,6 +61,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: |out| orthonormal([3.832_516e-4, 3.886_863e-4, -0.999_999_9], out),
         evidence: Evidence::Output,
         about: "1/(1 + n.z) magnifies the rounding of n.z near −z: the frame is off by more than a half",
+        cure: "an orthonormal frame: |side + n.z| ≥ 1",
     },
     Defect {
         name: "no_texture_area",
@@ -67,6 +72,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: finite,
         evidence: Evidence::Output,
         about: "a triangle without texture area divides by zero",
+        cure: "the triangle has no share",
     },
     Defect {
         name: "no_area",
@@ -77,6 +83,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: finite,
         evidence: Evidence::Output,
         about: "a triangle without area has no normal: 0/0 in the sum of its vertices",
+        cure: "no share; the summed normal is N × twice the area",
     },
     Defect {
         name: "quantised_texture",
@@ -91,6 +98,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "texture edges that are parallel but for their rounding: an area of −1.1e-8 makes tangents of 10⁷",
+        cure: "an area within rounding of 0 has no share",
     },
     Defect {
         name: "tangent_along_normal",
@@ -101,6 +109,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: |out| unit(&out[..3]),
         evidence: Evidence::Output,
         about: "T parallel to N leaves no tangent",
+        cure: "a tangent from the normal",
     },
     Defect {
         name: "tangent_not_unit",
@@ -111,6 +120,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: |out| unit(&out[..3]),
         evidence: Evidence::Output,
         about: "T' = T − (N·T) N is not a unit vector",
+        cure: "a unit tangent",
     },
     Defect {
         name: "mirrored_neighbours",
@@ -121,6 +131,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: |out| unit(&out[..3]),
         evidence: Evidence::Output,
         about: "where mirrored halves meet in a vertex their tangents cancel",
+        cure: "a tangent from the normal",
     },
     Defect {
         name: "non_uniform_scale",
@@ -138,6 +149,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "under non-uniform scale the normal is no longer perpendicular to the surface",
+        cure: "the cofactor matrix keeps it at right angles",
     },
     Defect {
         name: "normal_not_unit",
@@ -148,6 +160,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: unit,
         evidence: Evidence::Output,
         about: "a scaled object has scaled normals: they light with their length",
+        cure: "a unit normal",
     },
     Defect {
         name: "mirrored_object",
@@ -164,6 +177,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "under a mirroring transform B = cross(N, T)·w points the wrong way",
+        cure: "w times the sign of the determinant",
     },
     Defect {
         name: "tiny_light",
@@ -174,6 +188,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: unit,
         evidence: Evidence::Output,
         about: "the square of 1e-23 is zero in f32: the direction is lost",
+        cure: "scaled before it is squared",
     },
     Defect {
         name: "huge_light",
@@ -184,5 +199,6 @@ pub(super) const ROWS: &[Defect] = &[
         property: unit,
         evidence: Evidence::Output,
         about: "the square of 2e19 overflows: the direction is lost",
+        cure: "scaled before it is squared",
     },
 ];

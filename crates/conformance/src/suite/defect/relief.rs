@@ -5,6 +5,22 @@ use super::{Defect, Evidence};
 
 pub(super) const ROWS: &[Defect] = &[
     Defect {
+        name: "first_order",
+        published: "height_to_normal_forward_published",
+        hardened: Some("height_to_normal"),
+        // The bottom of a trough: both neighbours one step higher, on either side.
+        witness: &[0.0, 1.0, 1.0, 1.0],
+        cured_witness: Some(&[1.0, 1.0, 1.0, 1.0, 0.5, 0.5]),
+        property: |out| {
+            ensure(out[2] == 1.0, || {
+                format!("the bottom of a trough has the normal {out:?}")
+            })
+        },
+        evidence: Evidence::Output,
+        about: "one-sided differences are of first order: the bottom of a trough slopes",
+        cure: "central differences: level, and of second order",
+    },
+    Defect {
         name: "axes_swapped",
         published: "height_to_normal_forward_published",
         hardened: Some("height_to_normal_forward"),
@@ -18,6 +34,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "the first axis is the row: a slope along u lands in green",
+        cure: "red along u, green along v",
     },
     Defect {
         name: "average_not_unit",
@@ -28,6 +45,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: unit,
         evidence: Evidence::Output,
         about: "the average of normals that differ is shorter than 1, and is written as it is",
+        cure: "normalised; the length is at hand beside it",
     },
     Defect {
         name: "flat_view",
@@ -38,6 +56,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: within_a_tile,
         evidence: Evidence::Output,
         about: "at V.z = 0 the shift is infinite",
+        cure: "V.z counts as 0.05: at most 20 elevations",
     },
     Defect {
         name: "grazing_view",
@@ -48,6 +67,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: within_a_tile,
         evidence: Evidence::Output,
         about: "the shift grows without bound as V.z goes to 0: here 200 tiles",
+        cure: "V.z counts as 0.05: at most 20 elevations",
     },
     Defect {
         name: "view_from_below",
@@ -62,6 +82,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "for V.z < 0 the shift turns round",
+        cure: "V.z counts as 0.05: the shift keeps its direction",
     },
     Defect {
         name: "too_short",
@@ -77,6 +98,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "left out, the division by V.z halves the shift at 60°: the price of the bound",
+        cure: "parallax_offset divides by V.z",
     },
     Defect {
         name: "diagonal",
@@ -91,6 +113,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "the shift runs along the diagonal of the texture wherever the eye is",
+        cure: "the shift follows V.xy",
     },
     Defect {
         name: "long_normal",
@@ -101,6 +124,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: level,
         evidence: Evidence::Output,
         about: "|n| > 1 makes f₁ negative: level ground is shifted backward",
+        cure: "unit n: level ground stays",
     },
     Defect {
         name: "short_normal",
@@ -111,6 +135,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: level,
         evidence: Evidence::Output,
         about: "|n| < 1 makes level ground slope",
+        cure: "unit n: level ground stays",
     },
     Defect {
         name: "negative_occlusion",
@@ -121,5 +146,6 @@ pub(super) const ROWS: &[Defect] = &[
         property: not_negative,
         evidence: Evidence::Output,
         about: "the occlusion falls to −0.6",
+        cure: "clamped to [0, 1]",
     },
 ];

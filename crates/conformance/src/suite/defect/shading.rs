@@ -13,6 +13,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: finite,
         evidence: Evidence::Output,
         about: "L = −V makes the half vector 0/0",
+        cure: "no half vector: zero",
     },
     Defect {
         name: "opposite_light",
@@ -30,6 +31,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Rules,
         about: "L = −V makes the highlight pow(NaN, p): the diffuse colour may be lost or a full highlight appear",
+        cure: "no highlight, the diffuse term stays",
     },
     Defect {
         name: "zero_to_the_zeroth",
@@ -47,6 +49,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Rules,
         about: "pow(0, 0) is left open by the language",
+        cure: "no highlight where N·H ≤ 0",
     },
     Defect {
         name: "zero_light",
@@ -61,6 +64,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Rules,
         about: "L = 0 is normalised to 0/0",
+        cure: "no direction, no light",
     },
     Defect {
         name: "zero_light",
@@ -71,6 +75,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: finite,
         evidence: Evidence::Output,
         about: "L = 0 is normalised to 0/0 before it becomes a colour",
+        cure: "the colour of no direction, (½, ½, ½)",
     },
     Defect {
         name: "short_normal",
@@ -85,6 +90,7 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "a filtered normal of length 1/2 mirrors the view into the surface",
+        cure: "unit N: mirrored outward",
     },
     Defect {
         name: "long_normal",
@@ -95,6 +101,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: unit,
         evidence: Evidence::Output,
         about: "a normal that is too long makes no mirror: the reflected vector is as long as 2.9",
+        cure: "unit N: a mirror keeps the length",
     },
     Defect {
         name: "negative_light",
@@ -105,6 +112,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: not_negative,
         evidence: Evidence::Output,
         about: "a long normal gives negative light on the far side",
+        cure: "unit N: the factor is not below 0",
     },
     Defect {
         name: "negative_ambient",
@@ -115,6 +123,7 @@ pub(super) const ROWS: &[Defect] = &[
         property: not_negative,
         evidence: Evidence::Output,
         about: "an occlusion of −0.6 takes away light that was never there",
+        cure: "occlusion and factor clamped at 0",
     },
     Defect {
         name: "transparent_light",
@@ -129,5 +138,6 @@ pub(super) const ROWS: &[Defect] = &[
         },
         evidence: Evidence::Output,
         about: "the light scales alpha: an opaque surface in the dark is transparent",
+        cure: "alpha is the surface's",
     },
 ];
