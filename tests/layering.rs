@@ -46,6 +46,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "conformance",
         ],
     ),
+    ("mutants", &["shaders", "translate", "runner", "conformance"]),
 ];
 
 /// Crate, then outside crates that it must never import, with the reason in the message.
