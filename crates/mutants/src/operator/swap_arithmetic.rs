@@ -108,7 +108,7 @@ mod tests {
             ["(a - b) * c", "(a + b) / c"]
         );
         assert_eq!(expressions(&OPERATOR, "a % n"), ["a * n"]);
-        assert!(expressions(&OPERATOR, "a < b && c == d | e").is_empty());
+        assert!(expressions(&OPERATOR, "a < b && c == (d | e)").is_empty());
     }
 
     #[test]

@@ -51,6 +51,6 @@ mod tests {
             ["a & (b << 8u)", "a | (b >> 8u)"]
         );
         assert_eq!(expressions(&OPERATOR, "a & b"), ["a | b"]);
-        assert!(expressions(&OPERATOR, "a || b && c").is_empty());
+        assert!(expressions(&OPERATOR, "a || (b && c)").is_empty());
     }
 }

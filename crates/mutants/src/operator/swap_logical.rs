@@ -77,6 +77,6 @@ mod tests {
             ["a || (b || true)", "a && (b && true)", "a && (b || false)"]
         );
         assert_eq!(expressions(&OPERATOR, "any(a >= b)"), ["all(a >= b)"]);
-        assert!(expressions(&OPERATOR, "a & b | c").is_empty());
+        assert!(expressions(&OPERATOR, "(a & b) | c").is_empty());
     }
 }
