@@ -18,12 +18,18 @@ use crate::worker::Said;
 const START_LIMIT: Duration = Duration::from_secs(300);
 /// Assembling and validating one mutant.
 const PREPARE_LIMIT: Duration = Duration::from_secs(120);
+/// Reading the rest of what a worker said that has ended; a process of its own could keep the pipe open.
+const LAST_WORDS_LIMIT: Duration = Duration::from_secs(2);
 /// How much of a worker's standard error is kept.
 const KEPT: usize = 4000;
 
 /// How workers are started.
 #[derive(Clone, Debug)]
 pub(crate) struct Pool<'a> {
+    /// The program that serves as a worker: this one.
+    pub(crate) program: PathBuf,
+    /// What comes before the worker's own arguments.
+    pub(crate) arguments: Vec<PathBuf>,
     /// The folder of the sources, which nobody changes meanwhile.
     pub(crate) folder: &'a Path,
     /// The adapter's name; any when `None`.
@@ -132,16 +138,18 @@ struct Worker {
     input: Option<ChildStdin>,
     said: Receiver<String>,
     errors: Arc<Mutex<String>>,
+    /// Ends when standard error does.
+    errors_open: Receiver<()>,
 }
 
 impl Worker {
     fn start(pool: &Pool<'_>) -> Result<Self, Error> {
         let failed = |error: std::io::Error| Error::Worker(format!("could not be started: {error}"));
-        let program: PathBuf = std::env::current_exe().map_err(failed)?;
         let threads = (thread::available_parallelism().map_or(1, usize::from) / pool.jobs)
             .max(1)
             .to_string();
-        let mut command = Command::new(program);
+        let mut command = Command::new(&pool.program);
+        command.args(&pool.arguments);
         command.arg("--worker").arg("--shader-dir").arg(pool.folder);
         if let Some(adapter) = pool.adapter {
             command.args(["--adapter", adapter]);
@@ -157,6 +165,7 @@ impl Worker {
         let mut child = command.spawn().map_err(failed)?;
         let errors = Arc::new(Mutex::new(String::new()));
         let (sender, said) = channel();
+        let (open, errors_open) = channel::<()>();
         if let Some(out) = child.stdout.take() {
             thread::spawn(move || {
                 let lines = BufReader::new(out).lines().map_while(Result::ok);
@@ -168,7 +177,10 @@ impl Worker {
         }
         if let Some(err) = child.stderr.take() {
             let errors = Arc::clone(&errors);
-            thread::spawn(move || keep(err, &errors));
+            thread::spawn(move || {
+                keep(err, &errors);
+                drop(open);
+            });
         }
         let input = child.stdin.take();
         let mut worker = Self {
@@ -176,6 +188,7 @@ impl Worker {
             input,
             said,
             errors,
+            errors_open,
         };
         worker.ready()?;
         Ok(worker)
@@ -256,6 +269,7 @@ impl Worker {
         // After the end, so that nothing is on its way any more.
         let _ = self.child.kill();
         let _ = self.child.wait();
+        let _ = self.errors_open.recv_timeout(LAST_WORDS_LIMIT);
         let errors = lock(&self.errors);
         errors
             .lines()
@@ -305,10 +319,73 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-#[cfg(test)]
+#[cfg(all(test, unix))]
 mod tests {
-    use super::Queue;
+    use super::{Pool, Queue};
+    use crate::error::Error;
+    use crate::fate::Fate;
     use crate::generate::of_file;
+    use crate::mutant::Mutant;
+
+    fn two() -> Vec<Mutant> {
+        let text = "fn f(a: f32) -> f32 { return a + 1.0; }";
+        of_file("a.wesl", text).unwrap().into_iter().take(2).collect()
+    }
+
+    /// What becomes of two mutants with a worker that is a script: it says `ready`, and then does `each` for each id.
+    fn with_script(each: &str) -> Result<Vec<Fate>, Error> {
+        let folder = tempfile::tempdir().unwrap();
+        let script = folder.path().join("worker");
+        let ready = r#"echo '"ready"'"#;
+        std::fs::write(&script, format!("{ready}\nwhile read -r id; do\n{each}\ndone\n")).unwrap();
+        let pool = Pool {
+            program: "sh".into(),
+            arguments: vec![script],
+            folder: folder.path(),
+            adapter: None,
+            jobs: 1,
+        };
+        let mut fates = Vec::new();
+        pool.run(&two(), &mut |index, fate| fates.push((index, fate)))?;
+        fates.sort_by_key(|(index, _)| *index);
+        Ok(fates.into_iter().map(|(_, fate)| fate).collect())
+    }
+
+    const STEP: &str = r#"echo '{"step":{"case":"dot3/edge","unmutated":false,"limit_seconds":0.2}}'"#;
+
+    #[test]
+    fn a_case_that_never_ends_is_ended_and_the_next_mutant_has_its_turn() {
+        let case = "dot3/edge".to_owned();
+        let fates = with_script(&format!("{STEP}; sleep 60")).unwrap();
+        assert_eq!(fates, vec![Fate::TimedOut { case }; 2]);
+    }
+
+    #[test]
+    fn a_process_that_ends_is_caught_with_its_last_words() {
+        let fates = with_script(&format!("{STEP}; echo 'the driver gave up' >&2; exit 3")).unwrap();
+        let crashed = Fate::Crashed {
+            case: "dot3/edge".to_owned(),
+            reason: "the driver gave up".to_owned(),
+        };
+        assert_eq!(fates, vec![crashed; 2]);
+    }
+
+    #[test]
+    fn what_fails_without_a_fault_is_an_error() {
+        let unmutated = STEP.replace("false", "true");
+        for each in [
+            format!("{unmutated}; exit 3"),
+            format!("{unmutated}; sleep 60"),
+            "echo nonsense".to_owned(),
+        ] {
+            let error = with_script(&each).unwrap_err().to_string();
+            assert!(error.starts_with("a worker process "), "{each}: {error}");
+        }
+        let error = with_script(r#"echo '{"broken":"no adapter"}'"#)
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains("no adapter"), "{error}");
+    }
 
     #[test]
     fn workers_stay_with_their_files_and_help_at_the_end() {

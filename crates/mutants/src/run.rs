@@ -120,7 +120,11 @@ fn fates(args: &Args, info: &AdapterInfo, sources: &Sources, mutants: &[Mutant])
         let asked: Vec<Mutant> = open.iter().map(|&at| mutants[at].clone()).collect();
         // Workers read this copy, so that editing the sources meanwhile changes nothing.
         let copy = sources.copy()?;
+        let program = std::env::current_exe()
+            .map_err(|error| Error::Worker(format!("could not be started: {error}")))?;
         let pool = Pool {
+            program,
+            arguments: Vec::new(),
             folder: copy.path(),
             adapter: Some(&info.name),
             jobs: jobs(args),
