@@ -21,6 +21,7 @@ mod depfile;
 mod drawing;
 pub mod error;
 mod inputs;
+mod machine;
 mod nearest;
 mod options;
 pub mod output;

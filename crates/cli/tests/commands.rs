@@ -1,9 +1,9 @@
-//! The other commands, run as a user runs them. Those that need an adapter say so when there is none.
+//! The other commands, run as a user runs them, with a driver where there is one and always without.
 
 mod tool;
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 use tool::{Run, bossage, bossage_without_adapter, copy, entries, repository, text};
@@ -17,17 +17,18 @@ fn say(line: &str) {
     eprintln!("{line}");
 }
 
-/// Whether this machine has an adapter. Where a run must have one, `BOSSAGE_REQUIRE` names it, and going without fails.
+/// Whether this machine has a driver's adapter. Where a run must have one, `BOSSAGE_REQUIRE` names it, and going without fails.
 fn has_adapter() -> bool {
     let report = parsed(&bossage(&["doctor", "--json"]).exits(0).stdout);
-    let found = !report["adapters"].as_array().unwrap().is_empty();
+    let adapters = report["adapters"].as_array().unwrap();
+    let found = adapters.iter().any(|adapter| adapter["name"] != "embedded");
     let required = std::env::var("BOSSAGE_REQUIRE").unwrap_or_default();
     assert!(
         found || !required.contains("lavapipe"),
         "BOSSAGE_REQUIRE names an adapter, and none is here"
     );
     if !found {
-        say(&format!("SKIP: no adapter; {}", report["how_to_get_an_adapter"]));
+        say(&format!("SKIP: no driver; {}", report["how_to_get_an_adapter"]));
     }
     found
 }
@@ -78,9 +79,12 @@ fn doctor_names_every_tool_with_a_way_to_get_it() {
     }
     let without = bossage_without_adapter(&["doctor"]).exits(0).stdout;
     assert!(
-        without.contains("DISABLED  no adapter") && without.contains("mesa-vulkan-drivers"),
+        without.contains("DISABLED  no driver's adapter") && without.contains("mesa-vulkan-drivers"),
         "{without}"
     );
+    for report in [&without, &bossage(&["doctor"]).exits(0).stdout] {
+        assert!(report.contains("ENABLED   embedded [evaluator, cpu"), "{report}");
+    }
 }
 
 #[test]
@@ -170,6 +174,18 @@ fn what_an_external_compiler_rejects_fails_the_check_and_the_demo() {
     assert!(page.contains("Something failed") && page.contains("I do not like it"));
 }
 
+/// The library with one sign turned round, in a folder inside this one.
+fn broken_library(folder: &Path) -> PathBuf {
+    let shaders = folder.join("shaders");
+    copy(&repository("shaders"), &shaders);
+    let file = shaders.join("lib/lambert.wesl");
+    let source = fs::read_to_string(&file).unwrap();
+    let broken = source.replace("dot(normal, light_dir)", "dot(normal, -light_dir)");
+    assert_ne!(broken, source);
+    fs::write(&file, broken).unwrap();
+    shaders
+}
+
 /// A library that is wrong in one sign must not pass.
 #[test]
 fn a_shader_broken_on_purpose_is_caught() {
@@ -177,13 +193,7 @@ fn a_shader_broken_on_purpose_is_caught() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let shaders = folder.path().join("shaders");
-    copy(&repository("shaders"), &shaders);
-    let file = shaders.join("lib/lambert.wesl");
-    let source = fs::read_to_string(&file).unwrap();
-    let broken = source.replace("dot(normal, light_dir)", "dot(normal, -light_dir)");
-    assert_ne!(broken, source);
-    fs::write(&file, broken).unwrap();
+    let shaders = broken_library(folder.path());
     let run = bossage(&["conform", "dot3/hardened/", "--shader-dir", text(&shaders)]).exits(1);
     assert!(
         run.stdout.contains("FAIL: dot3/hardened/") && run.stdout.contains("again: bossage conform"),
@@ -213,20 +223,99 @@ fn completions_know_every_command() {
 }
 
 #[test]
-fn without_an_adapter_render_and_conform_exit_with_3_and_say_how_to_get_one() {
+fn without_a_driver_everything_runs_embedded_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = repository("examples/brick_wall.toml");
+    let picture = folder.path().join("wall.png");
+    let said = ["no Vulkan adapter", "`embedded`", "mesa-vulkan-drivers"];
+    bossage_without_adapter(&["render", text(&scene), "-o", text(&picture), "--size", "96x72"])
+        .exits(0)
+        .says(&said);
+    assert_is_a_picture(&picture, 96, 72);
+    let height = repository("examples/textures/bricks_height.png");
+    bossage_without_adapter(&["bake", text(&height), "-o", text(folder.path()), "--gpu"])
+        .exits(0)
+        .says(&said);
+    let run = bossage_without_adapter(&["conform", "dot3/", "--json", "-"]).exits(0);
+    let report = parsed(&run.stdout);
+    assert_eq!(report["totals"]["fail"], 0);
+    let cases = report["cases"].as_array().unwrap();
+    assert!(!cases.is_empty());
+    for case in cases {
+        assert_eq!(
+            (case["route"].as_str(), case["adapter"].as_str()),
+            (Some("embedded"), Some("embedded"))
+        );
+    }
+    let left_out = report["environment"]["not_run"].as_array().unwrap();
+    let routes: Vec<_> = left_out
+        .iter()
+        .map(|one| one["route"].as_str().unwrap())
+        .collect();
+    assert_eq!(routes, ["wgsl", "spirv"]);
+    assert!(
+        left_out[0]["reason"]
+            .as_str()
+            .unwrap()
+            .contains("mesa-vulkan-drivers")
+    );
+}
+
+#[test]
+fn without_a_driver_what_asks_for_one_exits_with_3_and_says_how_to_get_it() {
     let folder = tempfile::tempdir().unwrap();
     let scene = repository("examples/brick_wall.toml");
     let picture = folder.path().join("wall.png");
     let how = ["no Vulkan adapter", "mesa-vulkan-drivers"];
-    bossage_without_adapter(&["render", text(&scene), "-o", text(&picture)])
+    bossage_without_adapter(&[
+        "render",
+        text(&scene),
+        "-o",
+        text(&picture),
+        "--adapter",
+        "lavapipe",
+    ])
+    .exits(3)
+    .says(&how);
+    bossage_without_adapter(&["conform", "dot3/", "--route", "spirv"])
         .exits(3)
         .says(&how);
-    bossage_without_adapter(&["conform", "dot3"]).exits(3).says(&how);
-    let height = repository("examples/textures/bricks_height.png");
-    bossage_without_adapter(&["bake", text(&height), "-o", text(folder.path()), "--gpu"])
+    bossage_without_adapter(&["conform", "dot3/", "--adapter", "lavapipe"])
         .exits(3)
-        .says(&how);
+        .says(&["no adapter matches `lavapipe`", "embedded"]);
     assert!(entries(folder.path()).is_empty());
+}
+
+#[test]
+fn a_route_and_an_adapter_that_do_not_go_together_are_a_wrong_call() {
+    for (route, adapter) in [
+        ("spirv", "embedded"),
+        ("wgsl", "embedded"),
+        ("embedded,wgsl", "embedded"),
+    ] {
+        bossage(&["conform", "dot3/", "--route", route, "--adapter", adapter])
+            .exits(2)
+            .says(&["does not run", "it runs:"]);
+    }
+    if has_adapter() {
+        bossage(&["conform", "dot3/", "--route", "embedded", "--adapter", "lavapipe"])
+            .exits(2)
+            .says(&["does not run", "`embedded`"]);
+    }
+}
+
+/// A library that is wrong in one sign must not pass on the machine without a driver either.
+#[test]
+fn a_shader_broken_on_purpose_is_caught_without_a_driver() {
+    let folder = tempfile::tempdir().unwrap();
+    let shaders = broken_library(folder.path());
+    let run =
+        bossage_without_adapter(&["conform", "dot3/hardened/", "--shader-dir", text(&shaders)]).exits(1);
+    assert!(
+        run.stdout.contains("FAIL: dot3/hardened/") && run.stdout.contains("route embedded on embedded"),
+        "{}",
+        run.stdout
+    );
 }
 
 #[test]
@@ -238,28 +327,27 @@ fn an_adapter_that_is_not_there_is_named_with_those_that_are() {
 }
 
 #[test]
-fn the_demo_goes_on_without_an_adapter() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("demo");
-    let run = bossage_without_adapter(&["demo", "-o", text(&out)]).exits(0);
-    assert!(run.stdout.contains("picture: none"), "{}", run.stdout);
-    assert!(
-        run.stdout
-            .ends_with(&format!("report:  {}\n", out.join("report.html").display())),
-        "{}",
-        run.stdout
-    );
-    let page = fs::read_to_string(out.join("report.html")).unwrap();
-    assert!(page.contains("left out: no Vulkan adapter"));
-    assert!(out.join("shaders/manifest.json").exists());
-    assert!(out.join("scene/brick_wall.toml").exists());
+fn the_demo_names_a_picture_and_a_page_that_stands_alone() {
+    if has_adapter() {
+        let page = demo(bossage);
+        assert!(!page.contains("is left out"));
+    }
 }
 
 #[test]
-fn the_demo_names_a_picture_and_a_page_that_stands_alone() {
-    if !has_adapter() {
-        return;
+fn the_demo_is_whole_without_a_driver() {
+    let page = demo(bossage_without_adapter);
+    for said in [
+        "is left out: no Vulkan adapter",
+        "say nothing about a GPU",
+        "Drawn on embedded",
+    ] {
+        assert!(page.contains(said), "{said}");
     }
+}
+
+/// Runs the demo; gives back its page.
+fn demo(bossage: impl Fn(&[&str]) -> Run) -> String {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("demo");
     let run = bossage(&["demo", "-o", text(&out)]).exits(0);
@@ -300,6 +388,9 @@ fn the_demo_names_a_picture_and_a_page_that_stands_alone() {
         );
         assert!(target, "the link to {link} leads nowhere");
     }
+    assert!(out.join("shaders/manifest.json").exists());
+    assert!(out.join("scene/brick_wall.toml").exists());
+    page
 }
 
 /// Right size, and something is to be seen: it holds many colours.
@@ -410,7 +501,7 @@ fn bakes_are_the_same_on_both_sides() {
 
 #[test]
 fn conform_lists_runs_and_reports() {
-    let list = bossage(&["conform", "--list", "dot3"]).exits(0).stdout;
+    let list = bossage(&["conform", "--list", "dot3/"]).exits(0).stdout;
     assert!(
         list.lines().count() >= 3 && list.lines().all(|line| line.starts_with("dot3/")),
         "{list}"
@@ -426,7 +517,7 @@ fn conform_lists_runs_and_reports() {
     );
     let call = [
         "conform",
-        "dot3",
+        "dot3/",
         "--json",
         text(&json),
         "--junit",

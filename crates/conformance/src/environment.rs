@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use bossage_runner::AdapterInfo;
 use serde::Serialize;
 
+use crate::machines::NotRun;
+
 /// The workspace's lock file: the one place that knows the versions this was built from.
 const LOCK: &str = include_str!("../../../Cargo.lock");
 
@@ -45,6 +47,8 @@ pub struct Environment {
     pub full: bool,
     /// Which part of the cases ran, as `2/4`.
     pub shard: Option<String>,
+    /// Routes that no adapter runs, each with the reason.
+    pub not_run: Vec<NotRun>,
     /// When, in UTC.
     pub time: String,
 }
@@ -79,6 +83,10 @@ impl Environment {
                 .iter()
                 .map(|adapter| (format!("adapter {}", adapter.name), adapter.describe())),
         );
+        rows.extend(self.not_run.iter().map(|one| {
+            let reason = format!("not run: {}", one.reason);
+            (format!("route {}", one.route), reason)
+        }));
         rows.extend(
             self.versions
                 .iter()

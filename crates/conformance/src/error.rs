@@ -32,6 +32,14 @@ pub enum Error {
     /// No adapter, or none that matches.
     #[error("no adapter to run on")]
     Adapter(#[source] bossage_runner::Error),
+    /// Routes and adapters that don't go together.
+    #[error("{what}; it runs: {runs}")]
+    NoPair {
+        /// What doesn't run what.
+        what: String,
+        /// What it runs, or runs on.
+        runs: String,
+    },
     /// The examples' folder cannot be read.
     #[error("cannot read the scenes in {}", path.display())]
     Scenes {

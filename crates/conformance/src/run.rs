@@ -2,15 +2,14 @@
 
 use std::path::PathBuf;
 
-use bossage_runner::{AdapterInfo, AdapterSelector, Device, adapters};
 use bossage_shaders::Library;
 
-use crate::bench::Bench;
 use crate::case::Case;
 use crate::case_id::CaseId;
 use crate::environment::Environment;
 use crate::error::Error;
 use crate::generate::random;
+use crate::machines::Pairs;
 use crate::report::{CaseResult, Report};
 use crate::route::Route;
 use crate::suite::{self, Scope};
@@ -94,36 +93,6 @@ impl Selection {
         }
         sharded(matching, self.shard)
     }
-
-    /// The adapters that this selects.
-    ///
-    /// # Errors
-    /// [`Error::Adapter`] when there is none, or none of one of the names.
-    pub fn adapters(&self) -> Result<Vec<AdapterInfo>, Error> {
-        let all = adapters();
-        if all.is_empty() {
-            return Err(Error::Adapter(bossage_runner::Error::NoAdapter));
-        }
-        let missing = self
-            .adapters
-            .iter()
-            .find(|name| !all.iter().any(|a| AdapterSelector::named(name).matches(a)));
-        if let Some(name) = missing {
-            let found = all.iter().map(|adapter| adapter.name.clone()).collect();
-            return Err(Error::Adapter(bossage_runner::Error::NoSuchAdapter {
-                wanted: name.clone(),
-                found,
-            }));
-        }
-        let wanted = |info: &AdapterInfo| {
-            self.adapters.is_empty()
-                || self
-                    .adapters
-                    .iter()
-                    .any(|name| AdapterSelector::named(name).matches(info))
-        };
-        Ok(all.into_iter().filter(wanted).collect())
-    }
 }
 
 /// Every n-th case, starting with the i-th: neighbours, which cost about the same, go to different parts.
@@ -142,17 +111,23 @@ fn sharded<T>(cases: Vec<T>, shard: Option<(usize, usize)>) -> Result<Vec<T>, Er
 /// # Errors
 /// When nothing is selected, or no adapter is there. A shader that fails is a verdict, not an error.
 pub fn run(selection: &Selection, library: &Library, progress: &mut dyn Progress) -> Result<Report, Error> {
-    let cases = selection.cases()?;
-    let (infos, routes) = (selection.adapters()?, selection.routes());
-    progress.start(cases.len() * infos.len() * routes.len());
-    let devices = infos
-        .iter()
-        .map(|info| Device::open(&AdapterSelector::named(&info.name)).map_err(Error::Adapter))
-        .collect::<Result<Vec<_>, _>>()?;
-    let benches: Vec<Bench<'_>> = devices
-        .iter()
-        .flat_map(|device| routes.iter().map(|route| Bench::new(device, *route, library)))
-        .collect();
+    run_cases(selection.cases()?, selection, library, progress)
+}
+
+/// Runs these cases on the machines of a selection.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_cases(
+    cases: Vec<Box<dyn Case>>,
+    selection: &Selection,
+    library: &Library,
+    progress: &mut dyn Progress,
+) -> Result<Report, Error> {
+    let pairs = selection.pairs()?;
+    progress.start(cases.len() * pairs.count());
+    let machines = pairs.open()?;
+    let benches = machines.benches(library);
     let mut results = Vec::new();
     // Case by case, not bench by bench: what a case expects is computed once, and then dropped with the case.
     for case in cases {
@@ -162,15 +137,16 @@ pub fn run(selection: &Selection, library: &Library, progress: &mut dyn Progress
             results.push(result);
         }
     }
-    Ok(Report::new(environment(selection, &infos), results))
+    Ok(Report::new(environment(selection, &pairs), results))
 }
 
-fn environment(selection: &Selection, infos: &[AdapterInfo]) -> Environment {
+fn environment(selection: &Selection, pairs: &Pairs) -> Environment {
     Environment {
         seed: selection.seed.unwrap_or(random::SEED),
         full: selection.full,
         shard: selection.shard.map(|(index, count)| format!("{index}/{count}")),
-        ..Environment::of(infos)
+        not_run: pairs.not_run.clone(),
+        ..Environment::of(&pairs.infos())
     }
 }
 

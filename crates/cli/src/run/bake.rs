@@ -26,7 +26,7 @@ pub(crate) fn run(args: &Bake, global: &Global, console: Console) -> Result<Verd
         field.height
     ));
     let map = if args.gpu {
-        super::bake_gpu::bake(args, &field, global)?
+        super::bake_gpu::bake(args, &field, global, console)?
     } else {
         bake(args, &field)?
     };

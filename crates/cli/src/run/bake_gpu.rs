@@ -1,22 +1,21 @@
-//! `bossage bake --gpu`: the bake kernels of the library on an adapter.
+//! `bossage bake --gpu`: the bake kernels of the library on an adapter; without a driver on the evaluator.
 
 use std::collections::BTreeMap;
 
 use bossage_assets::{EdgeMode, HeightField, NormalCodec, NormalMap};
-use bossage_runner::{
-    AdapterSelector, BufferData, Code, ComputeJob, Device, Resources, Shader as Stage, TextureData,
-};
+use bossage_runner::{BufferData, Code, ComputeJob, Resources, Shader as Stage, TextureData};
 use bossage_shaders::Kernel;
 
 use crate::args::Global;
 use crate::args::bake::{Bake, NormalKind};
+use crate::console::Console;
 use crate::error::Result;
-use crate::{inputs, run};
+use crate::{inputs, machine, run};
 
 /// Invocations of a workgroup along each axis, as the kernels declare.
 const WORKGROUP_SIDE: u32 = 8;
 
-pub(super) fn bake(args: &Bake, field: &HeightField, global: &Global) -> Result<NormalMap> {
+pub(super) fn bake(args: &Bake, field: &HeightField, global: &Global, console: Console) -> Result<NormalMap> {
     let (kernel, uniforms, codec) = kernel(args, field)?;
     let (library, _) = inputs::library(global)?;
     let assembled = library.assemble_kernel(kernel)?;
@@ -41,7 +40,7 @@ pub(super) fn bake(args: &Bake, field: &HeightField, global: &Global) -> Result<
             1,
         ],
     };
-    let output = job.run(&Device::open(&AdapterSelector::Any)?)?;
+    let output = job.run(machine::open(None, console)?.as_ref())?;
     let texels = output.words("texels").into_iter().map(u32::to_le_bytes).collect();
     Ok(NormalMap {
         width: field.width,

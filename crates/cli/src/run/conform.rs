@@ -88,7 +88,7 @@ fn adapters(given: &[String]) -> Vec<String> {
     if given.is_empty() {
         return Vec::new();
     }
-    let found = bossage_runner::adapters();
+    let found = bossage_embedded::adapters();
     let is_whole = |name: &str| {
         found
             .iter()
@@ -179,6 +179,10 @@ pub(crate) fn text(report: &Report) -> String {
             console::heading(&adapter.name),
             adapter.driver
         );
+    }
+    for one in &report.environment.not_run {
+        let reason = console::faint(format_args!("not run: {}", one.reason));
+        let _ = writeln!(text, "route {} {reason}", one.route);
     }
     for ((technique, form), cases) in report.by_technique() {
         let name = form.map_or_else(|| technique.clone(), |form| format!("{technique} ({form})"));

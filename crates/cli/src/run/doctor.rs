@@ -8,16 +8,18 @@ use crate::Verdict;
 use crate::args::doctor::Doctor;
 use crate::console;
 use crate::error::Result;
+use crate::machine;
 use crate::run::check;
 
 pub(crate) fn run(args: &Doctor) -> Result<Verdict> {
-    let adapters = bossage_runner::adapters();
+    let adapters = bossage_embedded::adapters();
+    let has_driver = adapters.iter().any(|info| !machine::is_embedded(info));
     let report = Report {
         schema: 1,
         version: env!("CARGO_PKG_VERSION"),
         platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
         cores: std::thread::available_parallelism().map_or(1, usize::from),
-        how_to_get_an_adapter: adapters.is_empty().then_some(HOW_TO_GET_AN_ADAPTER),
+        how_to_get_an_adapter: (!has_driver).then_some(HOW_TO_GET_AN_ADAPTER),
         adapters: adapters.iter().map(Adapter::from).collect(),
         cache: check::cache_folder(None).map(|folder| folder.display().to_string()),
         validators: external::detect(),
@@ -90,7 +92,10 @@ impl Report {
             ));
         }
         if let Some(how) = self.how_to_get_an_adapter {
-            text.push_str(&format!("{}  no adapter: {how}\n", console::faint("DISABLED")));
+            text.push_str(&format!(
+                "{}  no driver's adapter: {how}\n",
+                console::faint("DISABLED")
+            ));
         }
         text.push_str(&format!(
             "\n{}\n",

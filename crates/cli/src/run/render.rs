@@ -1,6 +1,6 @@
 //! `bossage render`: a scene as a PNG, or two techniques side by side with their difference.
 
-use bossage_runner::{AdapterSelector, Device, Machine};
+use bossage_runner::Machine;
 use bossage_scene::Scene;
 use bossage_shaders::Library;
 
@@ -11,7 +11,7 @@ use crate::console::{self, Console};
 use crate::error::Result;
 use crate::output::{check_writable, write_whole};
 use crate::picture::{Difference, Linear, difference};
-use crate::{drawing, inputs, technique};
+use crate::{drawing, inputs, machine, technique};
 
 pub(crate) fn run(args: &Render, global: &Global, console: Console) -> Result<Verdict> {
     let (library, _) = inputs::library(global)?;
@@ -21,15 +21,11 @@ pub(crate) fn run(args: &Render, global: &Global, console: Console) -> Result<Ve
     }
     let variants = variants(&scene, args)?;
     check_writable(&args.output)?;
-    let selector = args
-        .adapter
-        .as_deref()
-        .map_or(AdapterSelector::Any, AdapterSelector::named);
-    let device = Device::open(&selector)?;
-    console.note(format_args!("{} on {}", args.scene.display(), device.info()));
+    let machine = machine::open(args.adapter.as_deref(), console)?;
+    console.note(format_args!("{} on {}", args.scene.display(), machine.info()));
     let pictures = variants
         .iter()
-        .map(|scene| picture(&device, scene, &library))
+        .map(|scene| picture(machine.as_ref(), scene, &library))
         .collect::<Result<Vec<_>>>()?;
     let picture = match pictures.as_slice() {
         [a, b] => compared(a, b, console),

@@ -64,7 +64,7 @@ pub(crate) fn bossage(arguments: &[&str]) -> Run {
     command(arguments).output().expect("the binary starts").into()
 }
 
-/// Runs the binary where no adapter can be found.
+/// Runs the binary where no driver can be found.
 pub(crate) fn bossage_without_adapter(arguments: &[&str]) -> Run {
     let missing = "/nonexistent/icd.json";
     let mut command = command(arguments);

@@ -1,15 +1,16 @@
 //! Routes: the ways from an assembled shader to results. One file a route.
 //!
-//! A route turns the library's WGSL into what it hands to the driver, so that what is judged is what users get. Routes that
-//! execute the other languages join here as further variants.
+//! A route turns the library's WGSL into what it hands to the driver, so that what is judged is what users get; `embedded` needs
+//! none. Routes that execute the other languages join here as further variants.
 
+mod embedded;
 mod spirv;
 mod wgsl;
 
 use std::fmt;
 use std::str::FromStr;
 
-use bossage_runner::{Code, Shader};
+use bossage_runner::{AdapterInfo, Code, Shader};
 use bossage_shaders::AssembledShader;
 use bossage_translate::{Manifest, Source};
 use serde::Serialize;
@@ -24,11 +25,13 @@ pub enum Route {
     Wgsl,
     /// The emitted SPIR-V file, passed through to Vulkan unseen.
     Spirv,
+    /// The text, evaluated by `bounds` in f32, without a driver.
+    Embedded,
 }
 
 impl Route {
     /// All routes, in the order of the reports.
-    pub const ALL: [Self; 2] = [Self::Wgsl, Self::Spirv];
+    pub const ALL: [Self; 3] = [Self::Wgsl, Self::Spirv, Self::Embedded];
 
     /// The name on the command line and in reports.
     #[must_use]
@@ -36,6 +39,17 @@ impl Route {
         match self {
             Self::Wgsl => "wgsl",
             Self::Spirv => "spirv",
+            Self::Embedded => "embedded",
+        }
+    }
+
+    /// Whether that adapter runs this route.
+    #[must_use]
+    pub fn runs_on(self, info: &AdapterInfo) -> bool {
+        let is_embedded = info.name == bossage_embedded::NAME;
+        match self {
+            Self::Wgsl | Self::Spirv => !is_embedded,
+            Self::Embedded => is_embedded,
         }
     }
 
@@ -49,6 +63,7 @@ impl Route {
         match self {
             Self::Wgsl => Ok(wgsl::prepare(&shader, assembled)),
             Self::Spirv => spirv::prepare(&shader),
+            Self::Embedded => Ok(embedded::prepare(&shader, assembled)),
         }
     }
 }
@@ -119,6 +134,9 @@ mod tests {
             assert_eq!(route.name().parse::<Route>().unwrap(), route);
         }
         let message = "spriv".parse::<Route>().unwrap_err().to_string();
-        assert_eq!(message, "no route is called `spriv`; there are: wgsl, spirv");
+        assert_eq!(
+            message,
+            "no route is called `spriv`; there are: wgsl, spirv, embedded"
+        );
     }
 }

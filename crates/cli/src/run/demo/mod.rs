@@ -1,7 +1,7 @@
 //! `bossage demo`: the road of one scene, end to end, and a page that shows every stop of it.
 //!
-//! What needs an adapter (the pictures and the conformance) is left out where there is none, and the page says so: the
-//! demo still succeeds. A failed check or case makes the exit code 1.
+//! Pictures and conformance need an adapter. Where no driver brings one, `embedded` takes over, and the page says which routes
+//! are left out. A failed check or case makes the exit code 1.
 
 mod bundle;
 mod page;
@@ -10,11 +10,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use bossage_conformance::bench::Bench;
-use bossage_conformance::environment::Environment;
-use bossage_conformance::generate::random::SEED;
-use bossage_conformance::{Progress, Report, Route, Selection};
-use bossage_runner::{AdapterInfo, AdapterSelector, Device, Machine};
+use bossage_conformance::{Report, Selection, run_cases};
+use bossage_runner::{AdapterInfo, Machine};
 use bossage_shaders::Library;
 use bossage_translate::external::{self, Validator};
 use bossage_translate::{EmitOptions, Target, lint};
@@ -31,7 +28,7 @@ use crate::run::conform::Watch;
 use crate::run::emit::{Done, Job};
 use crate::run::{plan, render};
 use crate::stamp::Stamp;
-use crate::technique;
+use crate::{machine, technique};
 
 /// Everything the page shows.
 struct Story {
@@ -39,11 +36,15 @@ struct Story {
     done: Done,
     validators: Vec<Validator>,
     check: InputReport,
-    pictures: Vec<Shot>,
-    conformance: Option<Report>,
-    /// What was left out, and how to get it.
-    left_out: Vec<String>,
+    executed: Executed,
     times: Vec<(&'static str, Duration)>,
+}
+
+/// What was executed, and by whom.
+struct Executed {
+    machine: AdapterInfo,
+    pictures: Vec<Shot>,
+    conformance: Report,
 }
 
 /// One picture with what it shows.
@@ -102,56 +103,43 @@ pub(crate) fn run(args: &Demo, global: &Global, console: Console) -> Result<Verd
     check.lints = inputs.parse()?.iter().flat_map(lint).collect();
     clock.lap("check", if check.ok { "nothing failed" } else { "FAILED" });
 
-    let mut story = Story {
+    let executed = execute(&inputs, &library, &mut clock)?;
+    let story = Story {
         inputs,
         done,
         validators,
         check,
-        pictures: Vec::new(),
-        conformance: None,
-        left_out: Vec::new(),
-        times: Vec::new(),
+        executed,
+        times: clock.laps,
     };
-    story.execute(&library, &mut clock)?;
-    story.times = clock.laps;
     story.finish(folder)
 }
 
-impl Story {
-    /// Draws and compares, where there is an adapter.
-    fn execute(&mut self, library: &Library, clock: &mut Clock) -> Result<()> {
-        let device = match Device::open(&AdapterSelector::Any) {
-            Err(error) if error.is_missing_environment() => {
-                let missing = format!(
-                    "Pictures and conformance are left out: {}",
-                    crate::error::chain(&error)
-                );
-                clock.console.note(console::faint(&missing));
-                self.left_out.push(missing);
-                return Ok(());
-            }
-            device => device?,
-        };
-        let planned = self
-            .inputs
-            .scenes
-            .first()
-            .ok_or_else(|| Error::Call("the demo has no scene".to_owned()))?;
-        self.pictures = pictures(&device, planned, library)?;
-        clock.lap("render", &describe(device.info()));
-        let report = conform(planned, library, clock.console)?;
-        let totals = report.totals();
-        clock.lap(
-            "conform",
-            &format!("{} results, {} failed", totals.cases, totals.fail),
-        );
-        self.conformance = Some(report);
-        Ok(())
-    }
+/// Draws and compares, on a driver's adapter or without any on our own evaluator.
+fn execute(inputs: &Inputs, library: &Library, clock: &mut Clock) -> Result<Executed> {
+    let machine = machine::open(None, clock.console)?;
+    let planned = inputs
+        .scenes
+        .first()
+        .ok_or_else(|| Error::Call("the demo has no scene".to_owned()))?;
+    let pictures = pictures(machine.as_ref(), planned, library)?;
+    clock.lap("render", &describe(machine.info()));
+    let conformance = conform(planned, library, clock.console)?;
+    let totals = conformance.totals();
+    clock.lap(
+        "conform",
+        &format!("{} results, {} failed", totals.cases, totals.fail),
+    );
+    Ok(Executed {
+        machine: machine.info().clone(),
+        pictures,
+        conformance,
+    })
+}
 
+impl Story {
     fn is_fine(&self) -> bool {
-        let conforms = self.conformance.as_ref().is_none_or(Report::is_ok);
-        self.check.ok && self.done.failures().next().is_none() && conforms
+        self.check.ok && self.done.failures().next().is_none() && self.executed.conformance.is_ok()
     }
 
     /// Writes pictures and page, and names them.
@@ -159,16 +147,22 @@ impl Story {
         let page = folder.join("report.html");
         let mut outputs = Outputs::default();
         outputs.add(page.clone(), "the report", page::write(&self)?.into_bytes())?;
-        for shot in &self.pictures {
+        for shot in &self.executed.pictures {
             outputs.add(folder.join(shot.file), "a picture", shot.png.clone())?;
         }
         outputs.commit()?;
-        let picture = self.pictures.first().map(|shot| folder.join(shot.file));
-        let picture = picture.map_or_else(
-            || "none (no adapter)".to_owned(),
-            |path| path.display().to_string(),
-        );
-        console::print(&format!("picture: {picture}\nreport:  {}\n", page.display()))?;
+        for shot in self.executed.pictures.iter().take(1) {
+            console::print(&format!(
+                "picture: {}
+",
+                folder.join(shot.file).display()
+            ))?;
+        }
+        console::print(&format!(
+            "report:  {}
+",
+            page.display()
+        ))?;
         Ok(if self.is_fine() {
             Verdict::Fine
         } else {
@@ -178,13 +172,18 @@ impl Story {
 }
 
 fn describe(info: &AdapterInfo) -> String {
-    format!("on {}", info.name)
+    let by_whom = if machine::is_embedded(info) {
+        " (no driver: the evaluator's time, not a GPU's)"
+    } else {
+        ""
+    };
+    format!("on {}{by_whom}", info.name)
 }
 
 /// The wall as planned; and what its relief adds to the same wall without it.
-fn pictures(device: &dyn Machine, planned: &Planned, library: &Library) -> Result<Vec<Shot>> {
-    let with = render::picture(device, &planned.scene, library)?;
-    let without = render::picture(device, &technique::pinned(&planned.scene, "none")?, library)?;
+fn pictures(machine: &dyn Machine, planned: &Planned, library: &Library) -> Result<Vec<Shot>> {
+    let with = render::picture(machine, &planned.scene, library)?;
+    let without = render::picture(machine, &technique::pinned(&planned.scene, "none")?, library)?;
     let difference = difference(&without, &with);
     let chosen = planned
         .plan
@@ -224,33 +223,7 @@ fn conform(planned: &Planned, library: &Library, console: Console) -> Result<Rep
     wanted.insert("scene".to_owned());
     let mut cases = selection.cases()?;
     cases.retain(|case| wanted.contains(&case.id().technique));
-    let infos = selection.adapters()?;
-    let open = |info: &AdapterInfo| Device::open(&AdapterSelector::named(&info.name));
-    let devices = infos
-        .iter()
-        .map(open)
-        .collect::<std::result::Result<Vec<_>, _>>()?;
-    let benches: Vec<Bench<'_>> = devices
-        .iter()
-        .flat_map(|device| Route::ALL.map(|route| Bench::new(device, route, library)))
-        .collect();
-    let mut watch = Watch::new(console);
-    watch.start(cases.len() * benches.len());
-    let mut results = Vec::new();
-    for case in cases {
-        for bench in &benches {
-            let result = case.run(bench).into_result(case.as_ref(), bench);
-            watch.done(&result);
-            results.push(result);
-        }
-    }
-    Ok(Report::new(
-        Environment {
-            seed: SEED,
-            ..Environment::of(&infos)
-        },
-        results,
-    ))
+    Ok(run_cases(cases, &selection, library, &mut Watch::new(console))?)
 }
 
 fn techniques(planned: &Planned, library: &Library) -> Result<BTreeSet<String>> {

@@ -14,6 +14,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::{Shot, Story};
 use crate::error::Result;
+use crate::machine;
 use crate::run::{emit, plan};
 use crate::translation::Translation;
 
@@ -73,7 +74,12 @@ fn summary(story: &Story) -> Markup {
     };
     html! {
         p.verdict.(if story.is_fine() { "pass" } else { "fail" }) { (verdict) }
-        @for left_out in &story.left_out { p.verdict.skip { (left_out) } }
+        @for one in &story.executed.conformance.environment.not_run {
+            p.verdict.skip { "Route " code { (one.route) } " is left out: " (one.reason) "." }
+        }
+        @if machine::is_embedded(&story.executed.machine) {
+            p.verdict.skip { "There is no driver: the times below are those of our own evaluator, and say nothing about a GPU." }
+        }
         dl.totals {
             div { dt { "permutations" } dd { (story.inputs.scenes.iter().map(|s| s.plan.permutations.len()).sum::<usize>()) } }
             div { dt { "shaders" } dd { (story.inputs.modules.len()) } }
@@ -88,8 +94,8 @@ fn pictures(story: &Story) -> Markup {
     html! {
         section #picture aria-labelledby="picture-heading" {
             h2 #picture-heading { "Picture" }
-            @if story.pictures.is_empty() { p { "None: no adapter was found." } }
-            @for shot in &story.pictures { (picture(shot)) }
+            p { "Drawn on " (story.executed.machine) "." }
+            @for shot in &story.executed.pictures { (picture(shot)) }
         }
     }
 }
@@ -293,13 +299,8 @@ fn conformance(story: &Story) -> Markup {
     html! {
         section #conformance aria-labelledby="conformance-heading" {
             h2 #conformance-heading { "Conformance" }
-            @match &story.conformance {
-                None => { p { "Not run: no adapter was found." } }
-                Some(report) => {
-                    p { "The scene and every technique in its shaders, executed and compared with float64 truth." }
-                    (PreEscaped(bossage_conformance::report::html::fragment(report)))
-                }
-            }
+            p { "The scene and every technique in its shaders, executed and compared with float64 truth." }
+            (PreEscaped(bossage_conformance::report::html::fragment(&story.executed.conformance)))
         }
     }
 }

@@ -1,0 +1,302 @@
+//! Which machine runs which routes.
+//!
+//! Routes `wgsl` and `spirv` go to drivers, route `embedded` is what the adapter `embedded` does: a pair that makes no sense is
+//! not in the list. What a selection names must be in some pair, or the call is wrong; a route that nobody named and that has no
+//! adapter is left out, and the report says so.
+
+use bossage_embedded::{adapters, open};
+use bossage_runner::{AdapterInfo, AdapterSelector, HOW_TO_GET_AN_ADAPTER, Machine};
+use bossage_shaders::Library;
+use serde::Serialize;
+
+use crate::bench::Bench;
+use crate::error::Error;
+use crate::route::Route;
+use crate::run::Selection;
+
+/// A route that no adapter of this machine runs.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct NotRun {
+    /// The route.
+    pub route: Route,
+    /// Why not, and how to get what it needs.
+    pub reason: String,
+}
+
+/// Adapters with the routes that each runs, and the routes that none runs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pairs {
+    /// Adapters, each with at least one route.
+    pub adapters: Vec<(AdapterInfo, Vec<Route>)>,
+    /// The other routes.
+    pub not_run: Vec<NotRun>,
+}
+
+impl Pairs {
+    /// The pairs that a selection takes of these adapters.
+    ///
+    /// # Errors
+    /// [`Error::Adapter`] when an adapter that is named isn't there, or a route that is named needs one and there is none;
+    /// [`Error::NoPair`] when what is named doesn't go together.
+    pub fn of(selection: &Selection, all: &[AdapterInfo]) -> Result<Self, Error> {
+        let selectors: Vec<_> = selection
+            .adapters
+            .iter()
+            .map(|name| AdapterSelector::named(name))
+            .collect();
+        for (name, selector) in selection.adapters.iter().zip(&selectors) {
+            if !all.iter().any(|info| selector.matches(info)) {
+                let (wanted, found) = (name.clone(), all.iter().map(|info| info.name.clone()).collect());
+                return Err(Error::Adapter(bossage_runner::Error::NoSuchAdapter {
+                    wanted,
+                    found,
+                }));
+            }
+        }
+        let named = |info: &AdapterInfo| selectors.iter().any(|selector| selector.matches(info));
+        let routes = selection.routes();
+        let mut pairs = Vec::new();
+        for info in all.iter().filter(|info| selectors.is_empty() || named(info)) {
+            let own: Vec<Route> = routes
+                .iter()
+                .copied()
+                .filter(|route| route.runs_on(info))
+                .collect();
+            if own.is_empty() && named(info) {
+                return Err(Error::NoPair {
+                    what: format!("adapter `{}` does not run {}", info.name, list(&routes)),
+                    runs: list(
+                        &Route::ALL
+                            .into_iter()
+                            .filter(|r| r.runs_on(info))
+                            .collect::<Vec<_>>(),
+                    ),
+                });
+            }
+            if !own.is_empty() {
+                pairs.push((info.clone(), own));
+            }
+        }
+        let not_run = left_out(selection, &routes, &pairs, all)?;
+        Ok(Self {
+            adapters: pairs,
+            not_run,
+        })
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.adapters.iter().map(|(_, routes)| routes.len()).sum()
+    }
+
+    /// The adapters.
+    #[must_use]
+    pub fn infos(&self) -> Vec<AdapterInfo> {
+        self.adapters.iter().map(|(info, _)| info.clone()).collect()
+    }
+
+    /// Opens every adapter.
+    ///
+    /// # Errors
+    /// [`Error::Adapter`] when one can't be opened.
+    pub fn open(&self) -> Result<Machines, Error> {
+        let machine = |(info, routes): &(AdapterInfo, Vec<Route>)| {
+            let machine = open(&AdapterSelector::named(&info.name)).map_err(Error::Adapter)?;
+            Ok((machine, routes.clone()))
+        };
+        Ok(Machines(
+            self.adapters.iter().map(machine).collect::<Result<_, _>>()?,
+        ))
+    }
+}
+
+/// The routes without an adapter; those that are named have to have one.
+fn left_out(
+    selection: &Selection,
+    routes: &[Route],
+    pairs: &[(AdapterInfo, Vec<Route>)],
+    all: &[AdapterInfo],
+) -> Result<Vec<NotRun>, Error> {
+    let mut not_run = Vec::new();
+    for &route in routes {
+        if pairs.iter().any(|(_, own)| own.contains(&route)) {
+            continue;
+        }
+        match (selection.routes.is_empty(), selection.adapters.is_empty()) {
+            (false, true) => return Err(Error::Adapter(bossage_runner::Error::NoAdapter)),
+            (false, false) => {
+                return Err(Error::NoPair {
+                    what: format!("route `{route}` does not run on the adapters that are named"),
+                    runs: runners(route, all),
+                });
+            }
+            // Whoever names adapters knows that others are left out.
+            (true, false) => {}
+            (true, true) => not_run.push(NotRun {
+                route,
+                reason: format!("no Vulkan adapter; {HOW_TO_GET_AN_ADAPTER}"),
+            }),
+        }
+    }
+    Ok(not_run)
+}
+
+/// The adapters that run a route, for a message.
+fn runners(route: Route, all: &[AdapterInfo]) -> String {
+    let names = all
+        .iter()
+        .filter(|info| route.runs_on(info))
+        .map(|info| format!("`{}`", info.name));
+    let names: Vec<String> = names.collect();
+    if names.is_empty() {
+        "only on a driver's adapter, and none is here".to_owned()
+    } else {
+        names.join(", ")
+    }
+}
+
+fn list(routes: &[Route]) -> String {
+    let names: Vec<String> = routes.iter().map(|route| format!("route `{route}`")).collect();
+    names.join(", ")
+}
+
+/// Open machines with the routes that each runs.
+#[derive(Debug)]
+pub struct Machines(Vec<(Box<dyn Machine>, Vec<Route>)>);
+
+impl Machines {
+    /// A bench for each pair.
+    #[must_use]
+    pub fn benches<'a>(&'a self, library: &'a Library) -> Vec<Bench<'a>> {
+        let of_machine = |(machine, routes): &'a (Box<dyn Machine>, Vec<Route>)| {
+            routes
+                .iter()
+                .map(move |route| Bench::new(machine.as_ref(), *route, library))
+        };
+        self.0.iter().flat_map(of_machine).collect()
+    }
+}
+
+impl Selection {
+    /// The adapters and routes that this selects on this machine.
+    ///
+    /// # Errors
+    /// As [`Pairs::of`].
+    pub fn pairs(&self) -> Result<Pairs, Error> {
+        Pairs::of(self, &adapters())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn driver(name: &str) -> AdapterInfo {
+        AdapterInfo {
+            name: name.to_owned(),
+            backend: "vulkan".to_owned(),
+            ..bossage_embedded::info()
+        }
+    }
+
+    fn selection(routes: &[Route], adapters: &[&str]) -> Selection {
+        Selection {
+            routes: routes.to_vec(),
+            adapters: adapters.iter().map(|name| (*name).to_owned()).collect(),
+            ..Selection::default()
+        }
+    }
+
+    fn pairs(routes: &[Route], adapters: &[&str], all: &[AdapterInfo]) -> Vec<String> {
+        let pairs = Pairs::of(&selection(routes, adapters), all).unwrap();
+        let of = |(info, routes): &(AdapterInfo, Vec<Route>)| {
+            routes
+                .iter()
+                .map(|route| format!("{route} on {}", info.name))
+                .collect::<Vec<_>>()
+        };
+        let listed: Vec<String> = pairs.adapters.iter().flat_map(of).collect();
+        assert_eq!(listed.len(), pairs.count());
+        listed
+    }
+
+    #[test]
+    fn drivers_run_the_emitted_code_and_embedded_runs_itself() {
+        let all = [driver("one"), driver("two"), bossage_embedded::info()];
+        let expected = [
+            "wgsl on one",
+            "spirv on one",
+            "wgsl on two",
+            "spirv on two",
+            "embedded on embedded",
+        ];
+        assert_eq!(pairs(&[], &[], &all), expected);
+        assert_eq!(pairs(&[Route::Embedded], &[], &all), ["embedded on embedded"]);
+        assert_eq!(pairs(&[], &["embedded"], &all), ["embedded on embedded"]);
+        assert_eq!(
+            pairs(&[Route::Spirv], &[], &all),
+            ["spirv on one", "spirv on two"]
+        );
+        assert_eq!(pairs(&[], &["two"], &all), ["wgsl on two", "spirv on two"]);
+        assert_eq!(
+            pairs(&[Route::Wgsl, Route::Embedded], &["one", "embedded"], &all),
+            ["wgsl on one", "embedded on embedded"]
+        );
+    }
+
+    #[test]
+    fn without_a_driver_embedded_runs_and_the_rest_is_said_to_be_left_out() {
+        let all = [bossage_embedded::info()];
+        assert_eq!(pairs(&[], &[], &all), ["embedded on embedded"]);
+        let left_out = Pairs::of(&selection(&[], &[]), &all).unwrap().not_run;
+        let routes: Vec<Route> = left_out.iter().map(|one| one.route).collect();
+        assert_eq!(routes, [Route::Wgsl, Route::Spirv]);
+        assert!(left_out[0].reason.contains("mesa-vulkan-drivers"));
+        let with = [driver("one"), bossage_embedded::info()];
+        assert_eq!(Pairs::of(&selection(&[], &[]), &with).unwrap().not_run, []);
+    }
+
+    #[test]
+    fn what_is_named_and_does_not_go_together_is_a_wrong_call() {
+        let all = [driver("one"), bossage_embedded::info()];
+        let wrong =
+            |routes: &[Route], adapters: &[&str]| Pairs::of(&selection(routes, adapters), &all).unwrap_err();
+        let error = wrong(&[Route::Spirv], &["embedded"]);
+        assert!(matches!(error, Error::NoPair { .. }) && !error.is_missing_environment());
+        let text = error.to_string();
+        assert!(text.contains("`embedded`") && text.contains("`spirv`"), "{text}");
+        assert!(matches!(
+            wrong(&[Route::Embedded], &["one"]),
+            Error::NoPair { .. }
+        ));
+        let nobody = Pairs::of(
+            &selection(&[Route::Wgsl, Route::Embedded], &["embedded"]),
+            &[bossage_embedded::info()],
+        );
+        assert!(matches!(nobody, Err(Error::NoPair { .. })));
+        // One of two routes, one of two adapters.
+        assert!(matches!(
+            wrong(&[Route::Wgsl, Route::Embedded], &["one"]),
+            Error::NoPair { .. }
+        ));
+        assert!(matches!(
+            wrong(&[Route::Wgsl], &["one", "embedded"]),
+            Error::NoPair { .. }
+        ));
+    }
+
+    #[test]
+    fn what_is_named_and_not_there_is_an_error_of_the_environment() {
+        let all = [bossage_embedded::info()];
+        let wrong =
+            |routes: &[Route], adapters: &[&str]| Pairs::of(&selection(routes, adapters), &all).unwrap_err();
+        for error in [
+            wrong(&[], &["lavapipe"]),
+            wrong(&[Route::Wgsl], &[]),
+            wrong(&[Route::Wgsl, Route::Embedded], &[]),
+        ] {
+            assert!(error.is_missing_environment(), "{error}");
+        }
+    }
+}
