@@ -11,10 +11,17 @@ static SKIPPED: AtomicUsize = AtomicUsize::new(0);
 
 /// The report, or `None` after saying that the test is skipped.
 pub(crate) fn report(test: &str, selection: &Selection, library: &Library) -> Option<Report> {
+    let required = std::env::var("BOSSAGE_REQUIRE").is_ok_and(|list| list.contains("lavapipe"));
     match run(selection, library, &mut Silent) {
-        Ok(report) => Some(report),
+        Ok(report) => {
+            let left_out = &report.environment.not_run;
+            assert!(
+                !required || left_out.is_empty(),
+                "lavapipe is required, but: {left_out:?}"
+            );
+            Some(report)
+        }
         Err(error) if error.is_missing_environment() => {
-            let required = std::env::var("BOSSAGE_REQUIRE").is_ok_and(|list| list.contains("lavapipe"));
             assert!(!required, "lavapipe is required, but: {error}");
             let count = SKIPPED.fetch_add(1, Ordering::Relaxed) + 1;
             writeln!(std::io::stderr(), "SKIP {count}: {test}: {error}")
