@@ -1,5 +1,8 @@
 //! A planned scene → a picture in linear light, on an adapter.
 //!
+//! Where every object is shaded by `dot3`, in one pass or in two, the target keeps bytes, as that of the technique's article did: the
+//! picture is what texture combiners and a blending unit leave. Everything else is drawn in floats.
+//!
 //! The shaders are the planned permutations, bound by the manifest alone: names of uniforms, textures and vertex attributes
 //! are those that `emit` states for engines.
 
@@ -11,8 +14,8 @@ use bossage_runner::{
     AddressMode, Blend, Clear, Code, Cull, Depth, Draw, Machine, Mesh, RenderJob, RenderTarget, Resources,
     SamplerSettings, Shader as Stage, TexelFormat, TextureData, TextureDimension,
 };
-use bossage_scene::{Plan, Scene, Texels, Texture, TextureShape};
-use bossage_shaders::Library;
+use bossage_scene::{Pass, Plan, Scene, Texels, Texture, TextureShape};
+use bossage_shaders::{Library, Stage as Part};
 use bossage_translate::manifest::Entry;
 use rayon::prelude::*;
 
@@ -36,14 +39,15 @@ pub(crate) fn draw(machine: &dyn Machine, scene: &Scene, plan: &Plan, library: &
         name: "picture",
         width: scene.camera.size[0],
         height: scene.camera.size[1],
-        targets: vec![RenderTarget::floats(Clear::Colour(BACKGROUND))],
+        targets: vec![target(&draws)],
         read_depth: false,
         passes: vec![
             draws
                 .iter()
                 .zip(&meshes)
-                .map(|(draw, mesh)| one(draw, mesh, &modules, &textures))
-                .collect::<Result<_>>()?,
+                .map(|(draw, mesh)| all_of(draw, mesh, &modules, &textures))
+                .collect::<Result<Vec<_>>>()?
+                .concat(),
         ],
     };
     let output = job.run(machine)?;
@@ -79,13 +83,23 @@ fn modules(plan: &Plan, library: &Library) -> Result<BTreeMap<String, Module>> {
         .collect()
 }
 
-fn one<'a>(
+/// Bytes where every object is shaded by `dot3`, floats otherwise.
+fn target(draws: &[bossage_scene::Draw]) -> RenderTarget {
+    if !draws.is_empty() && draws.iter().all(|draw| draw.features.shading.is_dot3()) {
+        return RenderTarget::bytes(BACKGROUND);
+    }
+    RenderTarget::floats(Clear::Colour(BACKGROUND))
+}
+
+/// An object, as often as it is drawn.
+fn all_of<'a>(
     draw: &bossage_scene::Draw,
     mesh: &'a Mesh,
     modules: &'a BTreeMap<String, Module>,
     textures: &'a Uploaded,
-) -> Result<Draw<'a>> {
-    let stage = |name: String| -> Result<Stage<'a>> {
+) -> Result<Vec<Draw<'a>>> {
+    let stage = |part: Part| -> Result<Stage<'a>> {
+        let name = draw.features.module_name(part);
         let module = modules
             .get(&name)
             .ok_or_else(|| Error::Call(format!("the plan has no module {name}")))?;
@@ -94,17 +108,35 @@ fn one<'a>(
             entry: &module.entry,
         })
     };
-    let (vertex, fragment) = (
-        stage(draw.features.vertex().name())?,
-        stage(draw.features.fragment().name())?,
-    );
-    let bound = |name: &str| vertex.binding(name).is_some() || fragment.binding(name).is_some();
+    let vertex = stage(Part::Vertex)?;
+    let one = |pass: Pass| -> Result<Draw<'a>> {
+        let fragment = stage(pass.fragment)?;
+        let (blend, depth) = match pass.multiplies {
+            true => (Blend::Multiply, Depth::Equal),
+            false => (Blend::Replace, Depth::TestAndWrite),
+        };
+        Ok(Draw {
+            vertex,
+            fragment,
+            mesh,
+            resources: resources(draw, &[&vertex, &fragment], textures),
+            cull: Cull::None,
+            blend,
+            depth,
+        })
+    };
+    draw.passes().into_iter().map(one).collect()
+}
+
+/// What these stages bind, by the names of the draw.
+fn resources<'a>(draw: &bossage_scene::Draw, stages: &[&Stage<'_>], textures: &'a Uploaded) -> Resources<'a> {
+    let bound = |name: &str| stages.iter().any(|stage| stage.binding(name).is_some());
     let named = draw.textures.iter().filter(|(name, _)| bound(name));
     let sampler = SamplerSettings {
         address: address(draw.edge),
         ..SamplerSettings::default()
     };
-    let resources = Resources {
+    Resources {
         uniforms: draw.uniforms.clone(),
         textures: named
             .map(|(name, texture)| (name.clone(), &textures[&key(texture)]))
@@ -114,16 +146,7 @@ fn one<'a>(
             .into_iter()
             .collect(),
         ..Resources::default()
-    };
-    Ok(Draw {
-        vertex,
-        fragment,
-        mesh,
-        resources,
-        cull: Cull::None,
-        blend: Blend::Replace,
-        depth: Depth::TestAndWrite,
-    })
+    }
 }
 
 fn mesh(mesh: &bossage_assets::Mesh) -> Mesh {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bossage_assets::{EdgeMode, Mesh};
-use bossage_shaders::{Albedo, FeatureSet};
+use bossage_shaders::{Albedo, FeatureSet, Stage};
 use glam::{DMat4, DVec3, DVec4};
 
 use crate::camera::Matrices;
@@ -36,6 +36,31 @@ pub struct Draw {
     pub textures: BTreeMap<String, Arc<Texture>>,
     /// Address mode of `surface_sampler`, on both axes.
     pub edge: EdgeMode,
+}
+
+/// One time that an object is drawn. All use the one vertex module, so that they meet at the same depths, to the bit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// The fragment module.
+    pub fragment: Stage,
+    /// Whether its colour, alpha included, is multiplied into what the target holds, where the depth is exactly its own, and no
+    /// depth is written. Otherwise it replaces what is farther away.
+    pub multiplies: bool,
+}
+
+impl Draw {
+    /// How often the object is drawn, in this order.
+    #[must_use]
+    pub fn passes(&self) -> Vec<Pass> {
+        let fragments = self.features.stages().iter().filter_map(|&stage| match stage {
+            Stage::Vertex | Stage::FragmentCapture => None,
+            Stage::Fragment | Stage::SecondPass => Some(Pass {
+                fragment: stage,
+                multiplies: stage == Stage::SecondPass,
+            }),
+        });
+        fragments.collect()
+    }
 }
 
 /// The draws of a scene as planned, in scene order. Objects whose every fragment would be discarded are left out.

@@ -70,7 +70,7 @@ mod views;
 
 pub use camera::Matrices;
 pub use choose::{Candidate, Choice};
-pub use draw::{Draw, draws, draws_with};
+pub use draw::{Draw, Pass, draws, draws_with};
 pub use error::{Error, Problem, Report};
 pub use facts::{AlbedoFacts, HeightFacts, MaterialFacts, NormalFacts};
 pub use load::{load, load_str};

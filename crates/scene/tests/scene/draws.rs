@@ -1,7 +1,7 @@
 //! Draws: complete for the planned shader and for the one with all effects, and right in their numbers.
 
-use bossage_scene::{Draw, Texels, TextureShape, draws, draws_with, plan};
-use bossage_shaders::{FeatureSet, LightingSpace};
+use bossage_scene::{Draw, Pass, Texels, TextureShape, draws, draws_with, plan};
+use bossage_shaders::{FeatureSet, LightingSpace, Shading, Stage};
 
 use crate::fixture::{Folder, LAMP, SUN, example, one_plane};
 
@@ -101,6 +101,27 @@ fn complete_for_the_plan_and_for_all_effects() {
             assert!(differing.is_empty(), "{name} {}: {differing:?}", planned.object);
         }
     }
+}
+
+#[test]
+fn two_passes_multiply_the_colour_in_and_one_does_not() {
+    let scene = example("bumped_cube.toml");
+    let plan = plan(&scene);
+    let passes = |shading: Shading| {
+        let mut draw = draws(&scene, &plan).remove(0);
+        draw.features.shading = shading;
+        draw.passes()
+    };
+    let first = Pass {
+        fragment: Stage::Fragment,
+        multiplies: false,
+    };
+    assert_eq!(passes(Shading::Dot3SinglePass), [first]);
+    let second = Pass {
+        fragment: Stage::SecondPass,
+        multiplies: true,
+    };
+    assert_eq!(passes(Shading::Dot3TwoPass), [first, second]);
 }
 
 fn single(text: &str, folder: &Folder) -> Draw {
