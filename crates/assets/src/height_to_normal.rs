@@ -19,6 +19,7 @@
 //! No clamp is needed: |n| ≤ 1 + 3·2⁻²⁴, so the sums stay in [0.49, 255.6]. Slopes beyond [`MAX_SLOPE`] are refused, so that
 //! q cannot overflow.
 
+use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::truncate::to_byte_range;
@@ -131,6 +132,34 @@ pub fn bake(field: &HeightField, bake: &Bake) -> NormalMap {
         codec: bake.codec,
         texels,
     }
+}
+
+/// The normals that [`bake()`] writes, before they become bytes: for encodings that are not linear. Row by row, in the order of the
+/// module's operations.
+#[must_use]
+pub fn normals(field: &HeightField, bake: &Bake) -> Vec<Vec3> {
+    let height = |x: i64, y: i64| {
+        let (x, y) = (
+            bake.edge.resolve(x, field.width),
+            bake.edge.resolve(y, field.height),
+        );
+        field.texel(x, y)
+    };
+    let first = match bake.kernel {
+        Kernel::Central => -1,
+        Kernel::Forward => 0,
+    };
+    let normal = |index: u32| {
+        let (x, y) = (i64::from(index % field.width), i64::from(index / field.width));
+        let gx = (height(x + 1, y) - height(x + first, y)) * bake.slope[0];
+        let gy = (height(x, y + 1) - height(x, y + first)) * bake.slope[1];
+        let r = 1.0 / ((gx * gx + gy * gy) + 1.0).sqrt();
+        Vec3::new(-gx * r, -gy * r, r)
+    };
+    (0..field.width * field.height)
+        .into_par_iter()
+        .map(normal)
+        .collect()
 }
 
 /// As [`bake()`], into texels that are there already: a large map that is baked again and again costs no fresh memory.

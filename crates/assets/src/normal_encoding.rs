@@ -6,7 +6,9 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::{Error, Image, NormalCodec, NormalMap, codec_octahedral, codec_snorm, codec_two_channel};
+use crate::{
+    Error, Image, NormalCodec, NormalMap, codec_octahedral, codec_snorm, codec_two_channel, codec_unorm,
+};
 
 /// How a file writes normals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -71,6 +73,20 @@ impl NormalEncoding {
         })
     }
 
+    /// Red, green and blue of a unit normal in bytes; what an encoding does not need is 0. [`NormalEncoding::load`] reads it back.
+    #[must_use]
+    pub fn encode(self, n: Vec3) -> [u8; 3] {
+        match self {
+            NormalEncoding::Linear(codec) => n.to_array().map(|c| codec.encode(c)),
+            NormalEncoding::Snorm => n.to_array().map(|c| codec_snorm::encode8(c).cast_unsigned()),
+            NormalEncoding::TwoChannel => [codec_unorm::encode(n.x), codec_unorm::encode(n.y), 0],
+            NormalEncoding::Octahedral => {
+                let [x, y] = codec_octahedral::encode(n).to_array().map(codec_unorm::encode);
+                [x, y, 0]
+            }
+        }
+    }
+
     fn texel(self, image: &Image, texel: usize, target: NormalCodec) -> Result<[u8; 4], Error> {
         let first = texel * usize::from(image.channels);
         let unorm = |channel: usize| 2.0 * image.texels.sample(first + channel) - 1.0;
@@ -127,11 +143,9 @@ mod tests {
     #[test]
     fn every_encoding_of_one_normal_gives_the_same_map() {
         let n = Vec3::new(0.6, 0.0, 0.8);
-        let unorm = n.to_array().map(crate::codec_unorm::encode);
+        let unorm = n.to_array().map(codec_unorm::encode);
         let signed = n.to_array().map(|c| codec_snorm::encode8(c) as u8);
-        let folded = codec_octahedral::encode(n)
-            .to_array()
-            .map(crate::codec_unorm::encode);
+        let folded = codec_octahedral::encode(n).to_array().map(codec_unorm::encode);
         let maps = [
             NormalEncoding::Linear(NormalCodec::Unorm).load(&image(3, unorm.to_vec()), NormalCodec::Unorm),
             NormalEncoding::Snorm.load(&image(3, signed.to_vec()), NormalCodec::Unorm),
@@ -142,6 +156,26 @@ mod tests {
             // Half a step of 1/127 in two codes in a row, the octahedron's stretched by √3.
             let error = (map.unwrap().decode(0, 0) - n).abs().max_element();
             assert!(error <= (1.0 + 3f32.sqrt()) * 0.5 / 127.0, "{error}");
+        }
+    }
+
+    #[test]
+    fn what_is_encoded_is_read_back() {
+        let encodings = [
+            NormalEncoding::Linear(NormalCodec::Biased),
+            NormalEncoding::Snorm,
+            NormalEncoding::TwoChannel,
+            NormalEncoding::Octahedral,
+        ];
+        for n in [Vec3::Z, Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.48, 0.64, 0.6)] {
+            for encoding in encodings {
+                let bytes = encoding.encode(n).to_vec();
+                let map = encoding.load(&image(3, bytes), NormalCodec::Biased).unwrap();
+                // Half a step of 1/127 in the encoding and in the map, on a component that the encoding stretches by at most √3 (the
+                // octahedron) or x/z + y/z (z put back): below 2.
+                let error = (map.decode(0, 0) - n).abs().max_element();
+                assert!(error <= 3.0 * 0.5 / 127.0, "{encoding:?} {n}: {error}");
+            }
         }
     }
 

@@ -37,6 +37,19 @@ impl NormalisationCubeMap {
     /// # Errors
     /// [`Error::Parameter`] for a size of 0, above [`MAX_SIDE`], or whose faces together would exceed [`MAX_DECODED_BYTES`].
     pub fn generate(size: u32, depth: Depth) -> Result<Self, Error> {
+        Self::check_size(size, depth)?;
+        let faces = CubeFace::ALL.map(|face| match depth {
+            Depth::Eight => Texels::Unorm8(texels(face, size, |c| (c * 255.0).round() as u8)),
+            Depth::Sixteen => Texels::Unorm16(texels(face, size, |c| (c * 65535.0).round() as u16)),
+        });
+        Ok(NormalisationCubeMap { size, faces })
+    }
+
+    /// Whether there is a map of this size.
+    ///
+    /// # Errors
+    /// As [`NormalisationCubeMap::generate`].
+    pub fn check_size(size: u32, depth: Depth) -> Result<(), Error> {
         let bytes_a_texel = match depth {
             Depth::Eight => 4,
             Depth::Sixteen => 8,
@@ -49,11 +62,7 @@ impl NormalisationCubeMap {
                 expected: "at least 1 texel, and no more than 1 GiB for the six faces (6688 at 8 bits, 4729 at 16)",
             });
         }
-        let faces = CubeFace::ALL.map(|face| match depth {
-            Depth::Eight => Texels::Unorm8(texels(face, size, |c| (c * 255.0).round() as u8)),
-            Depth::Sixteen => Texels::Unorm16(texels(face, size, |c| (c * 65535.0).round() as u16)),
-        });
-        Ok(NormalisationCubeMap { size, faces })
+        Ok(())
     }
 
     /// A face as floats in [0, 1], four a texel: for textures whose format has no 16-bit integers.

@@ -17,6 +17,7 @@
 
 mod args;
 mod console;
+mod cube_files;
 mod depfile;
 mod drawing;
 pub mod error;

@@ -10,7 +10,8 @@ pub(crate) fn png_rgba8(width: u32, height: u32, bytes: &[u8]) -> Result<Vec<u8>
     png(width, height, bytes, ExtendedColorType::Rgba8)
 }
 
-fn png(width: u32, height: u32, bytes: &[u8], kind: ExtendedColorType) -> Result<Vec<u8>> {
+/// A PNG of samples of this kind, in native byte order.
+pub(crate) fn png(width: u32, height: u32, bytes: &[u8], kind: ExtendedColorType) -> Result<Vec<u8>> {
     let mut out = Vec::new();
     PngEncoder::new(&mut out)
         .write_image(bytes, width, height, kind)

@@ -376,6 +376,27 @@ fn typos_in_the_call_are_answered_with_the_right_word() {
             ],
             &["--edge", "flat"],
         ),
+        (&["bake", "-o", "x"], &["HEIGHT"]),
+        (
+            &["bake", "-o", "x", "--normalisation-cube", "0"],
+            &["normalisation cube map", "at least 1 texel"],
+        ),
+        (
+            &["bake", "-o", "x", "--normalisation-cube", "5000", "--bits", "16"],
+            &["5000", "4729"],
+        ),
+        (
+            &["bake", "-o", "x", "--normalisation-cube", "8", "--mips"],
+            &["HEIGHT"],
+        ),
+        (
+            &["bake", "a.png", "-o", "x", "--codec", "snorm", "--gpu"],
+            &["--codec snorm", "unorm and biased"],
+        ),
+        (
+            &["bake", "a.png", "-o", "x", "--codec", "octahedral", "--mips"],
+            &["--codec octahedral", "linear"],
+        ),
         (&["completions", "bsh"], &["bsh", "'bash'"]),
     ];
     let before = entries(Path::new("."));

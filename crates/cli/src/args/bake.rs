@@ -5,14 +5,17 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 
 pub(crate) const EXAMPLE: &str = "\
-Example:
-  bossage bake examples/textures/brick_height.png -o out/brick --normal central --edge wrap --scale 0.04";
+Examples:
+  bossage bake examples/textures/brick_height.png -o out/brick --normal central --edge wrap --scale 0.04
+  bossage bake examples/textures/brick_height.png -o out/brick --codec biased --mips
+  bossage bake -o out/cube --normalisation-cube 64 --bits 8";
 
 /// `bossage bake`.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Bake {
     /// The height image (PNG, JPEG, TGA, BMP, TIFF, OpenEXR, HDR); 1 is highest
-    pub(crate) height: PathBuf,
+    #[arg(required_unless_present = "normalisation_cube")]
+    pub(crate) height: Option<PathBuf>,
     /// Where the maps go
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
@@ -20,10 +23,10 @@ pub(crate) struct Bake {
     #[arg(long, value_name = "KIND", default_value = "central")]
     pub(crate) normal: NormalKind,
     /// How normals become bytes [default: unorm; forward: biased]
-    #[arg(long, value_name = "CODEC")]
+    #[arg(long, value_name = "CODEC", requires = "height")]
     pub(crate) codec: Option<CodecName>,
     /// What lies beyond the edge of the image [default: wrap; forward: a flat border]
-    #[arg(long, value_name = "MODE")]
+    #[arg(long, value_name = "MODE", requires = "height")]
     pub(crate) edge: Option<EdgeName>,
     /// How far height 1 lies above height 0, in widths of the image (texels are square)
     #[arg(
@@ -36,6 +39,15 @@ pub(crate) struct Bake {
     /// The channel of the image that holds the height
     #[arg(long, value_name = "CHANNEL", default_value = "red")]
     pub(crate) channel: ChannelName,
+    /// Write the smaller levels of the normal map too, each averaged from the one above and made unit vectors again
+    #[arg(long, requires = "height")]
+    pub(crate) mips: bool,
+    /// Write a normalisation cube map of so many texels along an edge, as six images
+    #[arg(long, value_name = "SIZE")]
+    pub(crate) normalisation_cube: Option<u32>,
+    /// Bits a component of the normalisation cube map
+    #[arg(long, value_name = "BITS", default_value = "8")]
+    pub(crate) bits: Bits,
     /// Bake on the graphics adapter instead of the processor (same bytes)
     #[arg(long)]
     pub(crate) gpu: bool,
@@ -48,11 +60,24 @@ pub(crate) enum NormalKind {
     Forward,
 }
 
-/// Normal codecs.
-#[derive(Clone, Copy, Debug, ValueEnum)]
+/// Normal codecs. The words are those of scene files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[value(rename_all = "snake_case")]
 pub(crate) enum CodecName {
     Unorm,
     Biased,
+    Snorm,
+    TwoChannel,
+    Octahedral,
+}
+
+/// Bits a component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Bits {
+    #[value(name = "8")]
+    Eight,
+    #[value(name = "16")]
+    Sixteen,
 }
 
 /// Edge modes.

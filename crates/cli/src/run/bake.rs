@@ -1,63 +1,121 @@
-//! `bossage bake`: maps from a height image, on the processor or on an adapter, with the same bytes.
+//! `bossage bake`: maps from a height image, and the normalisation cube map, on the processor or on an adapter.
+//!
+//! Everything that one call writes is written together or not at all. An adapter writes the same bytes, but for codes that lie
+//! within the rounding of f32 of a boundary between two: there the accuracy rules leave it the choice.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use bossage_assets::{
-    Channel, EdgeMode, HeightField, NormalCodec, NormalMap, height_to_normal, height_to_normal_forward,
-    load_image,
+    Channel, EdgeMode, HeightField, NormalCodec, NormalEncoding, NormalMap, NormalisationCubeMap,
+    height_to_normal, height_to_normal_forward, load_image, normal_mips, normalisation_cube_map::Depth,
 };
 
 use crate::Verdict;
 use crate::args::Global;
-use crate::args::bake::{Bake, ChannelName, CodecName, EdgeName, NormalKind};
+use crate::args::bake::{Bake, Bits, ChannelName, CodecName, EdgeName, NormalKind};
 use crate::console::{self, Console};
 use crate::error::{Error, Result};
-use crate::output::write_whole;
-use crate::picture;
+use crate::output::Outputs;
+use crate::{cube_files, picture};
 
 pub(crate) fn run(args: &Bake, global: &Global, console: Console) -> Result<Verdict> {
     check_flags(args)?;
-    let field = HeightField::from_image(&load_image(&args.height)?, channel(args.channel))?;
+    let mut files = Files::default();
+    if let Some(height) = &args.height {
+        normal_map(args, height, global, console, &mut files)?;
+    }
+    if let Some(size) = args.normalisation_cube {
+        let map = if args.gpu {
+            super::bake_gpu::normalisation_cube(size, depth(args.bits), global, console)?
+        } else {
+            NormalisationCubeMap::generate(size, depth(args.bits))?
+        };
+        for (name, png) in cube_files::encode(&map)? {
+            files.add(args, &name, png)?;
+        }
+    }
+    files.write()
+}
+
+/// What will be written, and the names to print.
+#[derive(Default)]
+struct Files {
+    outputs: Outputs,
+    names: String,
+}
+
+impl Files {
+    fn add(&mut self, args: &Bake, name: &str, bytes: Vec<u8>) -> Result<()> {
+        let path = args.output.join(name);
+        self.names.push_str(&format!("{}\n", path.display()));
+        self.outputs.add(path, "bake", bytes)
+    }
+
+    fn write(self) -> Result<Verdict> {
+        self.outputs.commit()?;
+        console::print(&self.names)?;
+        Ok(Verdict::Fine)
+    }
+}
+
+fn normal_map(args: &Bake, path: &Path, global: &Global, console: Console, files: &mut Files) -> Result<()> {
+    let field = HeightField::from_image(&load_image(path)?, channel(args.channel))?;
     let (low, high) = field.range();
     console.note(format_args!(
         "{}: {} x {}, heights {low} to {high}",
-        args.height.display(),
+        path.display(),
         field.width,
         field.height
     ));
-    let map = if args.gpu {
-        super::bake_gpu::bake(args, &field, global, console)?
-    } else {
-        bake(args, &field)?
+    let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    let map = match (encoding(args), args.gpu) {
+        (NormalEncoding::Linear(_), true) => super::bake_gpu::bake(args, &field, global, console)?,
+        (NormalEncoding::Linear(_), false) => bake(args, &field)?,
+        (encoding, _) => encoded(args, &field, encoding)?,
     };
-    let path = output_path(args);
-    write_whole(
-        &path,
-        picture::png_rgba8(map.width, map.height, map.texels.as_flattened())?,
-    )?;
-    console::print(&format!("{}\n", path.display()))?;
-    Ok(Verdict::Fine)
+    files.add(args, &format!("{stem}_normal.png"), png(&map)?)?;
+    if !args.mips {
+        return Ok(());
+    }
+    let levels = if args.gpu {
+        super::bake_gpu::mips(&map, global, console)?
+    } else {
+        normal_mips::chain(&map, normal_mips::NormalMips::default())
+    };
+    for (level, map) in levels.iter().enumerate().skip(1) {
+        files.add(args, &format!("{stem}_normal_mip{level}.png"), png(map)?)?;
+    }
+    Ok(())
 }
 
-/// The published forward bake has one codec and a flat border: flags that ask for something else are refused.
+fn png(map: &NormalMap) -> Result<Vec<u8>> {
+    picture::png_rgba8(map.width, map.height, map.texels.as_flattened())
+}
+
+/// Flags that ask for what there is not are refused.
 fn check_flags(args: &Bake) -> Result<()> {
-    let refuse = |flag: &str, why: &str| {
-        Err(Error::Call(format!(
-            "--normal forward does not take {flag}: {why}"
-        )))
-    };
+    let refuse = |what: String| Err(Error::Call(what));
     if !args.scale.is_finite() {
-        return Err(Error::Call(format!(
-            "--scale {}: a finite number is needed",
-            args.scale
-        )));
+        return refuse(format!("--scale {}: a finite number is needed", args.scale));
     }
-    match args.normal {
-        NormalKind::Forward if args.edge.is_some() => refuse("--edge", "as published, its border is flat"),
-        NormalKind::Forward if matches!(args.codec, Some(CodecName::Unorm)) => {
-            refuse("--codec unorm", "as published, it writes biased bytes")
-        }
-        NormalKind::Forward | NormalKind::Central => Ok(()),
+    let published = |flag: &str, why: &str| refuse(format!("--normal forward does not take {flag}: {why}"));
+    let codec = args.codec.filter(|codec| *codec != CodecName::Biased);
+    if args.normal == NormalKind::Forward && args.edge.is_some() {
+        return published("--edge", "as published, its border is flat");
+    }
+    if let Some(codec) = codec.filter(|_| args.normal == NormalKind::Forward) {
+        let flag = format!("--codec {}", name(codec));
+        return published(&flag, "as published, it writes biased bytes");
+    }
+    let folded = codec.filter(|codec| *codec != CodecName::Unorm).map(name);
+    match folded {
+        Some(codec) if args.gpu => refuse(format!(
+            "--gpu does not take --codec {codec}: the kernels write unorm and biased bytes"
+        )),
+        Some(codec) if args.mips => refuse(format!(
+            "--mips does not take --codec {codec}: levels are averaged in a linear code; use unorm or biased"
+        )),
+        Some(_) | None => Ok(()),
     }
 }
 
@@ -71,9 +129,28 @@ fn bake(args: &Bake, field: &HeightField) -> Result<NormalMap> {
     }
 }
 
+/// A map in an encoding that is not linear: the bytes are the encoding's, alpha holds the height.
+fn encoded(args: &Bake, field: &HeightField, encoding: NormalEncoding) -> Result<NormalMap> {
+    let normals = height_to_normal::normals(field, &central(args, field)?);
+    let texel = |(normal, height): (&glam::Vec3, &f32)| {
+        let [r, g, b] = encoding.encode(*normal);
+        [r, g, b, (height * 255.0 + 0.5) as u8]
+    };
+    Ok(NormalMap {
+        width: field.width,
+        height: field.height,
+        // Says nothing here: the bytes are not in a linear code.
+        codec: NormalCodec::Unorm,
+        texels: normals.iter().zip(&field.texels).map(texel).collect(),
+    })
+}
+
 /// What the central bake is given. Texels are square, so a scale in widths of the image is another one in heights of it.
 pub(super) fn central(args: &Bake, field: &HeightField) -> Result<height_to_normal::Bake> {
-    let codec = codec(args.codec.unwrap_or(CodecName::Unorm));
+    let codec = match encoding(args) {
+        NormalEncoding::Linear(codec) => codec,
+        NormalEncoding::Snorm | NormalEncoding::TwoChannel | NormalEncoding::Octahedral => NormalCodec::Unorm,
+    };
     let edge = edge(args.edge.unwrap_or(EdgeName::Wrap));
     let scale = [args.scale, args.scale * field.width as f32 / field.height as f32];
     Ok(height_to_normal::Bake::central(field, scale, edge, codec)?)
@@ -82,13 +159,6 @@ pub(super) fn central(args: &Bake, field: &HeightField) -> Result<height_to_norm
 /// The published bake measures elevation in texels a step of the height byte; we are given tiles between heights 0 and 1.
 pub(super) fn texels_per_step(args: &Bake, field: &HeightField) -> f32 {
     args.scale * field.width as f32 / 255.0
-}
-
-fn output_path(args: &Bake) -> PathBuf {
-    let stem = args.height.file_stem().unwrap_or(args.height.as_os_str());
-    let mut name = stem.to_owned();
-    name.push("_normal.png");
-    args.output.join(Path::new(&name))
 }
 
 const fn channel(name: ChannelName) -> Channel {
@@ -101,10 +171,34 @@ const fn channel(name: ChannelName) -> Channel {
     }
 }
 
-const fn codec(name: CodecName) -> NormalCodec {
-    match name {
-        CodecName::Unorm => NormalCodec::Unorm,
-        CodecName::Biased => NormalCodec::Biased,
+fn encoding(args: &Bake) -> NormalEncoding {
+    let default = match args.normal {
+        NormalKind::Central => CodecName::Unorm,
+        NormalKind::Forward => CodecName::Biased,
+    };
+    match args.codec.unwrap_or(default) {
+        CodecName::Unorm => NormalEncoding::Linear(NormalCodec::Unorm),
+        CodecName::Biased => NormalEncoding::Linear(NormalCodec::Biased),
+        CodecName::Snorm => NormalEncoding::Snorm,
+        CodecName::TwoChannel => NormalEncoding::TwoChannel,
+        CodecName::Octahedral => NormalEncoding::Octahedral,
+    }
+}
+
+const fn name(codec: CodecName) -> &'static str {
+    match codec {
+        CodecName::Unorm => "unorm",
+        CodecName::Biased => "biased",
+        CodecName::Snorm => "snorm",
+        CodecName::TwoChannel => "two_channel",
+        CodecName::Octahedral => "octahedral",
+    }
+}
+
+const fn depth(bits: Bits) -> Depth {
+    match bits {
+        Bits::Eight => Depth::Eight,
+        Bits::Sixteen => Depth::Sixteen,
     }
 }
 

@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use bossage_assets::{EdgeMode, HeightField, NormalCodec, NormalMap};
-use bossage_runner::{BufferData, Code, ComputeJob, Resources, Shader as Stage, TextureData};
+use bossage_assets::normalisation_cube_map::Depth;
+use bossage_assets::{EdgeMode, HeightField, NormalCodec, NormalMap, NormalisationCubeMap, Texels};
+use bossage_runner::{
+    BufferData, Code, ComputeJob, ComputeOutput, Machine, Resources, Shader as Stage, TextureData,
+};
 use bossage_shaders::Kernel;
 
 use crate::args::Global;
@@ -48,6 +51,150 @@ pub(super) fn bake(args: &Bake, field: &HeightField, global: &Global, console: C
         codec,
         texels,
     })
+}
+
+/// The normalisation cube map.
+pub(super) fn normalisation_cube(
+    size: u32,
+    depth: Depth,
+    global: &Global,
+    console: Console,
+) -> Result<NormalisationCubeMap> {
+    // The twin says which sizes there are.
+    NormalisationCubeMap::check_size(size, depth)?;
+    let (kernel, words) = match depth {
+        Depth::Eight => (Kernel::NormalisationCubeMap, 1),
+        Depth::Sixteen => (Kernel::NormalisationCubeMap16, 2),
+    };
+    let side = size.div_ceil(WORKGROUP_SIDE);
+    let face_words = words * (size * size) as usize;
+    let machine = machine::open(None, console)?;
+    let kernels = Kernels::new(machine.as_ref(), global)?;
+    let texels = BufferData::Output(4 * 6 * face_words);
+    let uniforms = BTreeMap::from([("bake.size".to_owned(), vec![size as f32])]);
+    let found = kernels.run(kernel, uniforms, &[("texels", texels)], [side, side, 6])?;
+    let found = found.buffers.get("texels").map(Vec::as_slice).unwrap_or_default();
+    let face = |index: usize| {
+        let bytes = found.get(4 * face_words * index..).unwrap_or_default();
+        let bytes = bytes.get(..4 * face_words).unwrap_or(bytes);
+        match depth {
+            Depth::Eight => Texels::Unorm8(bytes.to_vec()),
+            Depth::Sixteen => {
+                let codes = bytes.as_chunks::<2>().0.iter();
+                Texels::Unorm16(codes.map(|code| u16::from_le_bytes(*code)).collect())
+            }
+        }
+    };
+    Ok(NormalisationCubeMap {
+        size,
+        faces: [0, 1, 2, 3, 4, 5].map(face),
+    })
+}
+
+/// The levels of a normal map, the map itself first.
+pub(super) fn mips(map: &NormalMap, global: &Global, console: Console) -> Result<Vec<NormalMap>> {
+    let machine = machine::open(None, console)?;
+    let kernels = Kernels::new(machine.as_ref(), global)?;
+    let codec = vec![match map.codec {
+        NormalCodec::Unorm => 0.0,
+        NormalCodec::Biased => 1.0,
+    }];
+    let uniforms = |[width, height]: [u32; 2]| {
+        BTreeMap::from([
+            ("bake.size".to_owned(), vec![width as f32, height as f32]),
+            ("bake.codec".to_owned(), codec.clone()),
+        ])
+    };
+    let mut size = [map.width, map.height];
+    let mut means = kernels.means(
+        Kernel::NormalMipsDecode,
+        uniforms(size),
+        ("texels", map.texels.as_flattened()),
+        size,
+    )?;
+    let mut levels = vec![map.clone()];
+    while size != [1, 1] {
+        let smaller = size.map(|side| (side / 2).max(1));
+        means = kernels.means(Kernel::NormalMips, uniforms(size), ("means", &means), smaller)?;
+        size = smaller;
+        let count = (size[0] * size[1]) as usize;
+        let buffers = [
+            ("means", BufferData::Bytes(&means)),
+            ("texels", BufferData::Output(4 * count)),
+        ];
+        let groups = [(count as u32).div_ceil(64), 1, 1];
+        let found = kernels.run(Kernel::NormalMipsEncode, uniforms(size), &buffers, groups)?;
+        levels.push(NormalMap {
+            width: size[0],
+            height: size[1],
+            codec: map.codec,
+            texels: found.words("texels").into_iter().map(u32::to_le_bytes).collect(),
+        });
+    }
+    Ok(levels)
+}
+
+/// The library's kernels on a device.
+struct Kernels<'a> {
+    machine: &'a dyn Machine,
+    library: bossage_shaders::Library,
+}
+
+impl<'a> Kernels<'a> {
+    fn new(machine: &'a dyn Machine, global: &Global) -> Result<Self> {
+        let (library, _) = inputs::library(global)?;
+        Ok(Self { machine, library })
+    }
+
+    fn run(
+        &self,
+        kernel: Kernel,
+        uniforms: Uniforms,
+        buffers: &[(&str, BufferData<'_>)],
+        workgroups: [u32; 3],
+    ) -> Result<ComputeOutput> {
+        let assembled = self.library.assemble_kernel(kernel)?;
+        let entry = inputs::entry(&assembled)?;
+        let job = ComputeJob {
+            name: &assembled.name,
+            shader: Stage {
+                code: Code::Wgsl(&assembled.wgsl),
+                entry: &entry,
+            },
+            resources: Resources {
+                uniforms,
+                buffers: buffers
+                    .iter()
+                    .map(|(name, data)| ((*name).to_owned(), *data))
+                    .collect(),
+                ..Resources::default()
+            },
+            workgroups,
+        };
+        Ok(job.run(self.machine)?)
+    }
+
+    /// The averages of a level of this size, as the bytes of four floats a texel.
+    fn means(
+        &self,
+        kernel: Kernel,
+        uniforms: Uniforms,
+        (name, from): (&str, &[u8]),
+        [width, height]: [u32; 2],
+    ) -> Result<Vec<u8>> {
+        let count = (width * height) as usize;
+        let buffers = [
+            (name, BufferData::Bytes(from)),
+            ("smaller", BufferData::Output(16 * count)),
+        ];
+        let [x, y, _] = kernel.workgroup_size();
+        let groups = match y {
+            1 => [(count as u32).div_ceil(x), 1, 1],
+            _ => [width.div_ceil(x), height.div_ceil(y), 1],
+        };
+        let mut found = self.run(kernel, uniforms, &buffers, groups)?;
+        Ok(found.buffers.remove("smaller").unwrap_or_default())
+    }
 }
 
 type Uniforms = BTreeMap<String, Vec<f32>>;
