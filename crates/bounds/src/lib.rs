@@ -56,14 +56,15 @@
 //! - `determinant` and derivatives, for which WGSL states no accuracy, have the accuracy of their formulas.
 //! - `f64`, which WGSL does not have, has the `f32` entries of the table in its own units.
 //! - Textures: 8 sub-texel bits ([`SUBTEXEL`]), 4 bits of the level of detail ([`LOD_SLACK`]), no anisotropy.
+//! - Subgroups have 4 to 128 invocations and any members: in an interval domain votes, least and greatest values, broadcasts and
+//!   shuffles hold for all of them, and sums, scans and ballots are undecided.
 //! - A write out of bounds is dropped; it is counted in [`Counters::out_of_bounds`].
 //! - Invocations of one workgroup run in lockstep and atomics in the order of invocations: races are resolved one lawful way.
 //!
 //! # What is left out
 //!
 //! These are [`Error::Unsupported`], with the place: ray queries and ray tracing pipelines, mesh and task stages, cooperative
-//! matrices, binding arrays of buffers, subgroup operations over interval domains (the size of a subgroup is the machine's), and
-//! programs whose inlined size exceeds four million scalar instructions. External textures are treated as plain ones.
+//! matrices, binding arrays of buffers, and programs whose inlined size exceeds four million scalar instructions. External textures are treated as plain ones.
 #![forbid(unsafe_code)]
 
 mod bindings;
@@ -90,7 +91,9 @@ pub use exec::machine::Counters;
 pub use interval::{Accept, Flags, Interval, Range, WideCell};
 pub use kind::{IntType, Kind};
 pub use limits::Limits;
-pub use run::{Outcome, SpanCost, run_compute, run_fragment, run_probe, run_probe_with, run_vertex};
+pub use run::{
+    Outcome, SpanCost, run_compute, run_entry, run_fragment, run_probe, run_probe_with, run_vertex,
+};
 pub use stage::{Column, Slot, StageInputs, StageOutputs};
 pub use texture::{
     AddressMode, CompareFunction, Dimension, Filter, LOD_SLACK, MAX_SIDE, SUBTEXEL, Sampler, TexelFormat,

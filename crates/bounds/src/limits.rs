@@ -4,7 +4,7 @@
 /// others makes a result *undecided*, which is counted, never guessed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Scalar operations that an invocation may execute on average over its batch.
+    /// Scalar operations that an invocation may execute on average over its batch, forks of it and what they cost included.
     pub operations: u64,
     /// How often one invocation may both leave and stay in one loop before what the loop writes is given up as unknown.
     pub undecided_exits: u32,
@@ -21,7 +21,7 @@ pub struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            operations: 1 << 22,
+            operations: 1 << 20,
             undecided_exits: 128,
             spread: 1024,
             depth: 400,

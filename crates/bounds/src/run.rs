@@ -136,6 +136,37 @@ pub fn run_vertex<D: Domain>(
     run_stage(program, bindings, inputs, limits)
 }
 
+/// Evaluates an entry point of any stage: `workgroups` counts for compute shaders, `inputs` for the others.
+///
+/// # Errors
+/// As [`run_compute`] and [`run_fragment`].
+pub fn run_entry<D: Domain>(
+    program: &Program,
+    bindings: &mut Bindings<D>,
+    inputs: &StageInputs<D>,
+    workgroups: [u32; 3],
+    limits: &Limits,
+) -> Result<(Option<StageOutputs<D>>, Outcome)> {
+    match program.stage {
+        ShaderStage::Vertex => {
+            run_vertex(program, bindings, inputs, limits).map(|(outputs, outcome)| (Some(outputs), outcome))
+        }
+        ShaderStage::Fragment => {
+            run_fragment(program, bindings, inputs, limits).map(|(outputs, outcome)| (Some(outputs), outcome))
+        }
+        // `run_compute` names the stage of any other entry point in its error.
+        ShaderStage::Compute
+        | ShaderStage::Task
+        | ShaderStage::Mesh
+        | ShaderStage::RayGeneration
+        | ShaderStage::Miss
+        | ShaderStage::AnyHit
+        | ShaderStage::ClosestHit => {
+            run_compute(program, bindings, workgroups, limits).map(|outcome| (None, outcome))
+        }
+    }
+}
+
 fn run_stage<D: Domain>(
     program: &Program,
     bindings: &mut Bindings<D>,

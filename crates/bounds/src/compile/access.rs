@@ -22,12 +22,14 @@ impl<'m> Builder<'m> {
             let first = base + place.offset;
             return self.load_rows(frame, first..first + kinds.len() as Row);
         }
-        if let Some(rows) = frame.loaded.get(&place) {
+        // A vector and its first component, or a struct and its first member, stand in one place: the length tells them apart.
+        let key = (place.clone(), kinds.len());
+        if let Some(rows) = frame.loaded.get(&key) {
             return Ok(Val::Rows(rows.clone()));
         }
         let rows = self.rows(frame, &kinds);
         let dst = rows.first().copied().unwrap_or(0);
-        frame.loaded.insert(place.clone(), rows.clone());
+        frame.loaded.insert(key, rows.clone());
         self.push(frame, Op::Load(Box::new(Load { dst, kinds, place })))?;
         Ok(Val::Rows(rows))
     }

@@ -63,8 +63,8 @@ pub(crate) struct Frame<'m> {
     pub(crate) effects: Vec<Effects>,
     /// Which value row holds what a variable row holds, in the current straight line of code.
     pub(crate) known: HashMap<Row, Row>,
-    /// Values loaded through other places in the current straight line of code.
-    pub(crate) loaded: HashMap<Place, Vec<Row>>,
+    /// Values of that many scalars loaded through other places in the current straight line of code.
+    pub(crate) loaded: HashMap<(Place, usize), Vec<Row>>,
     pub(crate) span: u32,
 }
 

@@ -317,7 +317,7 @@ impl<'a, D: Domain> Machine<'a, D> {
     /// Charges operations to the batch's budget.
     pub(crate) fn spend(&mut self, operations: u64, span: u32) -> Result<()> {
         self.counters.operations += operations;
-        if self.counters.operations > self.budget {
+        if self.counters.operations + self.work > self.budget {
             return Err(Error::Budget {
                 budget: self.context.limits.operations,
                 span: self.span(span),

@@ -107,6 +107,7 @@ impl<'a, D: Domain> Machine<'a, D> {
             .flat_map(|&f| &code.functions[f].owned)
             .chain(&code.privates);
         for &(base, len) in owned {
+            self.work += u64::from(len);
             for row in base..base + len {
                 let start = row as usize * self.stride;
                 self.regs[start + to as usize] = self.regs[start + from as usize];
@@ -144,6 +145,7 @@ impl<'a, D: Domain> Machine<'a, D> {
         self.hull_variables(keep, drop);
         let other = self.lanes.overlay[drop as usize].take();
         if let Some(merged) = self.merged_overlay(keep, other) {
+            self.work += merged.cells.len() as u64;
             self.lanes.overlay[keep as usize] = Some(merged);
         }
         let lanes = &mut self.lanes;
@@ -165,6 +167,7 @@ impl<'a, D: Domain> Machine<'a, D> {
             .flat_map(|&f| &code.functions[f].variables)
             .chain(&code.privates);
         for &(base, len) in variables {
+            self.work += u64::from(len);
             for row in base..base + len {
                 let start = row as usize * self.stride;
                 let (a, b) = (self.regs[start + keep as usize], self.regs[start + drop as usize]);
@@ -261,6 +264,7 @@ impl<'a, D: Domain> Machine<'a, D> {
 
     fn lose(&mut self, region: RegionId) {
         let kinds = self.region_kinds(region);
+        self.work += self.view.len(region) as u64;
         for at in 0..self.view.len(region) as u32 {
             self.view.write(region, at, D::undecided(kinds.kind(at)));
         }
@@ -278,6 +282,7 @@ impl<'a, D: Domain> Machine<'a, D> {
             for &region in &overlay.lost {
                 self.lose(region);
             }
+            self.work += overlay.cells.len() as u64;
             for (&(region, at), &(cell, kind)) in &overlay.cells {
                 let both = D::hull(kind, self.view.read(region, at), cell);
                 self.view.write(region, at, both);

@@ -65,6 +65,8 @@ pub(crate) struct Machine<'a, D: Domain> {
     pub(crate) counters: Counters,
     /// Operations this batch may execute.
     pub(crate) budget: u64,
+    /// Cells copied and joined for forks, which the budget pays for although no shader asked for them.
+    pub(crate) work: u64,
     /// Functions being executed, outermost first.
     pub(crate) frames: Vec<usize>,
     pub(crate) depth: u32,
@@ -83,6 +85,7 @@ impl<'a, D: Domain> Machine<'a, D> {
             view: View::new(context.memory),
             counters: Counters::default(),
             budget: context.limits.operations.saturating_mul(n as u64),
+            work: 0,
             frames: Vec::new(),
             depth: 0,
         };

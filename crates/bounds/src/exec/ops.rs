@@ -85,9 +85,9 @@ impl<'a, D: Domain> Machine<'a, D> {
             Op::ImageLoad(load) => self.image_load(load, active),
             Op::ImageStore(store) => self.image_store(store, active),
             Op::ImageQuery(query) => self.image_query(query, active),
-            Op::Subgroup(subgroup) => self.subgroup(subgroup, active, instr.span)?,
+            Op::Subgroup(subgroup) => self.subgroup(subgroup, active),
         }
-        if self.counters.operations > self.budget {
+        if self.counters.operations + self.work > self.budget {
             return self.spend(0, instr.span);
         }
         Ok(())

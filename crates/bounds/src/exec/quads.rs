@@ -9,7 +9,6 @@ use super::machine::Machine;
 use crate::compile::code::{Combine, Row, Subgroup, SubgroupOp};
 use crate::domain::Domain;
 use crate::domain::ops::{FloatBinary, FloatUnary};
-use crate::error::{Error, Result};
 use crate::kind::{IntType, Kind};
 use crate::width::Width;
 use naga::{DerivativeAxis as Axis, DerivativeControl as Control};
@@ -46,13 +45,9 @@ impl<'a, D: Domain> Machine<'a, D> {
         out
     }
 
-    pub(crate) fn subgroup(&mut self, op: &Subgroup, active: &[u32], span: u32) -> Result<()> {
+    pub(crate) fn subgroup(&mut self, op: &Subgroup, active: &[u32]) {
         if D::UNCERTAIN {
-            let what = format!("subgroup operations over the domain `{}`", D::NAME);
-            return Err(Error::Unsupported {
-                what,
-                span: self.span(span),
-            });
+            return self.any_subgroup(op, active);
         }
         let mut at = 0;
         while at < active.len() {
@@ -64,7 +59,53 @@ impl<'a, D: Domain> Machine<'a, D> {
             self.one_subgroup(op, &active[at..end]);
             at = end;
         }
-        Ok(())
+    }
+
+    /// Subgroups of any size and membership that a machine may choose: a result holds for all of them.
+    ///
+    /// Votes are decided where all invocations agree, least and greatest values, broadcasts and shuffles lie in the hull of
+    /// all invocations' values (or, with an identity or an absent source, are open); sums, products, scans and ballots depend on
+    /// who takes part and are undecided.
+    fn any_subgroup(&mut self, op: &Subgroup, active: &[u32]) {
+        use crate::domain::ops::{FloatBinary, IntBinary};
+        let values = |machine: &Self| {
+            let row = op.argument?;
+            let cells = active.iter().map(|&lane| machine.get(row, lane));
+            cells.reduce(|a, b| D::hull(op.kind, a, b))
+        };
+        let open = D::undecided(op.kind);
+        let result = match op.op {
+            SubgroupOp::Ballot => return self.any_ballot(op.dst, active),
+            SubgroupOp::All
+            | SubgroupOp::Any
+            | SubgroupOp::BroadcastFirst
+            | SubgroupOp::Reduce(
+                Combine::Float(FloatBinary::Min | FloatBinary::Max)
+                | Combine::Int(IntBinary::Min | IntBinary::Max),
+            ) => values(self).unwrap_or(open),
+            SubgroupOp::Reduce(_) | SubgroupOp::Inclusive(_) | SubgroupOp::Exclusive(_) => open,
+            // The source may be an invocation that is not there.
+            SubgroupOp::Broadcast(..)
+            | SubgroupOp::Shuffle(..)
+            | SubgroupOp::ShuffleDown(..)
+            | SubgroupOp::ShuffleUp(..)
+            | SubgroupOp::ShuffleXor(..)
+            | SubgroupOp::QuadBroadcast(..)
+            | SubgroupOp::QuadSwap(_) => {
+                let absent = D::indeterminate(op.kind);
+                values(self).map_or(absent, |v| D::hull(op.kind, v, absent))
+            }
+        };
+        for &lane in active {
+            self.set(op.dst, lane, result);
+        }
+    }
+
+    /// Bits of any invocations, in the words that the largest subgroup of 128 fills.
+    fn any_ballot(&mut self, dst: Row, active: &[u32]) {
+        for &lane in active {
+            (0..4).for_each(|k| self.set(dst + k, lane, D::undecided(Kind::Int(IntType::U32))));
+        }
     }
 
     fn one_subgroup(&mut self, op: &Subgroup, members: &[u32]) {

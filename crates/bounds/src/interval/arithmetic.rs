@@ -193,11 +193,14 @@ pub(crate) fn remainder<const ABSORB: bool>(w: Width, a: Interval, b: Interval) 
 #[inline(always)]
 pub(crate) fn minimum<const ABSORB: bool>(a: Interval, b: Interval) -> Interval {
     match enter::<ABSORB>(a.flags.union(b.flags)) {
-        Ok(flags) => Interval {
-            lo: a.lo.min(b.lo),
-            hi: a.hi.min(b.hi),
-            flags,
-        },
+        Ok(flags) => {
+            let usual = Interval {
+                lo: a.lo.min(b.lo),
+                hi: a.hi.min(b.hi),
+                flags,
+            };
+            or_the_other(usual, a, b)
+        }
         Err(unknown) => unknown,
     }
 }
@@ -205,13 +208,29 @@ pub(crate) fn minimum<const ABSORB: bool>(a: Interval, b: Interval) -> Interval 
 #[inline(always)]
 pub(crate) fn maximum<const ABSORB: bool>(a: Interval, b: Interval) -> Interval {
     match enter::<ABSORB>(a.flags.union(b.flags)) {
-        Ok(flags) => Interval {
-            lo: a.lo.max(b.lo),
-            hi: a.hi.max(b.hi),
-            flags,
-        },
+        Ok(flags) => {
+            let usual = Interval {
+                lo: a.lo.max(b.lo),
+                hi: a.hi.max(b.hi),
+                flags,
+            };
+            or_the_other(usual, a, b)
+        }
         Err(unknown) => unknown,
     }
+}
+
+/// The lesser or the greater of a NaN and a number is the number on many machines: where either may be NaN, the other is a result.
+#[inline(always)]
+fn or_the_other(usual: Interval, a: Interval, b: Interval) -> Interval {
+    let mut out = usual;
+    if a.flags.has(Flags::NAN) {
+        out = out.hull(b);
+    }
+    if b.flags.has(Flags::NAN) {
+        out = out.hull(a);
+    }
+    out
 }
 
 /// `min(max(x, low), high)` or the median of the three, which differ where `low > high`.

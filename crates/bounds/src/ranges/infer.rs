@@ -211,6 +211,13 @@ fn words(name: &str) -> Vec<String> {
     out
 }
 
+/// A value for every pipeline-overridable constant that the module gives none: 1, which a size, a count and a switch can be.
+pub fn constants(module: &naga::Module) -> naga::back::PipelineConstants {
+    let open = module.overrides.iter().filter(|(_, o)| o.init.is_none());
+    open.filter_map(|(_, o)| Some((o.id.map(|id| id.to_string()).or_else(|| o.name.clone())?, 1.0)))
+        .collect()
+}
+
 /// Values of a built-in stage input.
 pub(super) fn builtin(slot: Slot, kind: Kind, n: usize) -> Vec<(usize, Values)> {
     match slot {

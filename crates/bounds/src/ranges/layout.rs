@@ -3,7 +3,7 @@
 use super::pattern::Step;
 use crate::bindings::IMMEDIATE;
 use crate::compile::layout::{Types, kind, unsupported};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::kind::Kind;
 use crate::stage::Slot;
 use naga::valid::{GlobalUse, ModuleInfo};
@@ -47,6 +47,12 @@ pub(crate) struct BufferInput {
     /// The first scalar of [`super::Inputs::scalars`] that belongs to it; `None` where the shader only writes it.
     pub(crate) first: Option<usize>,
 }
+
+/// Scalars of one variable that are described one by one; larger ones are refused.
+const MAX_INPUT_SCALARS: u64 = 1 << 20;
+
+/// Bytes that a scalar with its path takes, about.
+const LEAF_BYTES: u64 = 256;
 
 /// Walks one entry point.
 pub(super) struct Walk<'m> {
@@ -105,7 +111,17 @@ impl<'m> Walk<'m> {
     /// All scalars of a type, with their paths.
     fn walk(&self, ty: Handle<Type>, path: &mut Vec<Step>, out: &mut Vec<(Vec<Step>, Kind)>) -> Result<()> {
         let types = Types { module: self.module };
-        types.scalars(types.inner(ty))?;
+        let n = u64::from(types.scalars(types.inner(ty))?) + out.len() as u64;
+        if n > MAX_INPUT_SCALARS {
+            return Err(Error::Memory {
+                needed: n * LEAF_BYTES,
+                limit: MAX_INPUT_SCALARS * LEAF_BYTES,
+                what: format!(
+                    "`{}` has {n} scalars, and each gets a range of its own",
+                    head(path)
+                ),
+            });
+        }
         match *types.inner(ty) {
             TypeInner::Scalar(scalar) | TypeInner::Atomic(scalar) => out.push((path.clone(), kind(scalar)?)),
             TypeInner::Vector { size, scalar } => components(path, size as u8, kind(scalar)?, out),

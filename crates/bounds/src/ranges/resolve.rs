@@ -296,11 +296,12 @@ fn name_of(leaves: &[Leaf], run: &std::ops::Range<usize>) -> String {
     if vector_path(last) != stem {
         return format!("{}..{}", written(stem), written(vector_path(last)));
     }
-    let whole = leaves
-        .iter()
-        .filter(|leaf| vector_path(&leaf.path) == stem)
-        .count()
-        == run.len();
+    // Components of one vector stand side by side, so its neighbours tell whether this is all of it.
+    let within = |at: Option<usize>| {
+        at.and_then(|k| leaves.get(k))
+            .is_some_and(|leaf| vector_path(&leaf.path) == stem)
+    };
+    let whole = !within(run.start.checked_sub(1)) && !within(Some(run.end));
     if whole {
         return written(stem);
     }

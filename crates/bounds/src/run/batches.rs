@@ -187,10 +187,28 @@ fn set_compute_input<D: Domain>(
             | BuiltIn::SampleMask
             | foreign_builtin!() => [0; 3],
         };
+        let most = any_subgroup::<D>(builtin, group);
         for (&row, value) in port.rows.iter().zip(values) {
-            machine.set(row, lane as u32, D::int(IntType::U32, value as i128));
+            let cell = match most {
+                Some((lo, hi)) => D::int_range(IntType::U32, lo, hi),
+                None => D::int(IntType::U32, value as i128),
+            };
+            machine.set(row, lane as u32, cell);
         }
     }
+}
+
+/// In an interval domain, what a built-in value about subgroups may be on any machine: a subgroup has 4 to 128 invocations.
+fn any_subgroup<D: Domain>(builtin: BuiltIn, group: usize) -> Option<(i128, i128)> {
+    let group = group as i128;
+    let known = [
+        (BuiltIn::SubgroupSize, (4, 128)),
+        (BuiltIn::NumSubgroups, (1, group)),
+        (BuiltIn::SubgroupId, (0, group - 1)),
+        (BuiltIn::SubgroupInvocationId, (0, 127)),
+    ];
+    let found = known.into_iter().find(|(b, _)| *b == builtin);
+    found.filter(|_| D::UNCERTAIN).map(|(_, bounds)| bounds)
 }
 
 pub(super) fn stage<D: Domain>(

@@ -1,4 +1,4 @@
-// Subgroup operations; evaluated in point domains.
+// Subgroup operations.
 @group(0) @binding(0) var<storage, read_write> o: array<u32>;
 
 @compute @workgroup_size(64)

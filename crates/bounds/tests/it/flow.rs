@@ -1,7 +1,9 @@
 //! Control flow that an interval cannot decide.
 
 use crate::common::{dispatch, probe, program};
-use bossage_bounds::{Accept, Bindings, F32, Interval, Limits, Scalar, run_compute, run_probe};
+use bossage_bounds::{
+    Accept, Bindings, Error, F32, Interval, Limits, Range, Scalar, range_scalar, run_compute, run_probe,
+};
 
 /// 0.1 + 0.2 lies strictly between 0.3 as an f32 and the number below it: rounding decides, so the interval cannot.
 const SUM: &str = "let s = a[0] + a[1];";
@@ -194,4 +196,70 @@ fn one_invocation_budget_is_an_error_that_names_it() {
     let error = run_compute(&p, &mut b, [1, 1, 1], &limits).unwrap_err();
     assert!(error.to_string().contains("10000 operations"), "{error}");
     assert!(error.span().is_some());
+}
+
+/// Loads of a vector and of its first component are different loads, in either order.
+#[test]
+fn a_vector_and_its_first_component_are_loaded_apart() {
+    let source = "struct S { v: vec4f, m: mat2x2f, w: vec3f }
+        @group(0) @binding(0) var<uniform> u: S;
+        @group(0) @binding(1) var<storage, read_write> o: array<f32>;
+        @compute @workgroup_size(1) fn main() {
+            let x = u.v.x; let zw = u.v.zw;
+            let w = u.w; let wx = u.w.x;
+            let column = u.m[0]; let corner = u.m[0].x;
+            let both = vec4f(u.v.x, wx, corner, 0.5) + vec4f(u.w, u.w.x);
+            o[0] = x + 10.0 * zw.x + 100.0 * zw.y;
+            o[1] = w.z + 10.0 * wx;
+            o[2] = column.y + 10.0 * corner;
+            o[3] = both.x; o[4] = both.y; o[5] = both.z; o[6] = both.w;
+        }";
+    let b = Bindings::<F32>::new()
+        .floats(
+            0,
+            0,
+            &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 0.0],
+        )
+        .floats(0, 1, &[0.0; 7]);
+    let (b, _) = dispatch(source, b);
+    assert_eq!(
+        b.read_floats(0, 1).unwrap(),
+        [431.0, 101.0, 56.0, 10.0, 19.0, 16.0, 9.5]
+    );
+}
+
+/// What forks cost is paid from the budget too: loops of undecided length in each other end, or say that they do not.
+#[test]
+fn forks_are_paid_for() {
+    let p = program(&crate::common::probe_source(
+        "var t: array<f32, 256>;
+         for (var k = 0u; k < 200u; k++) { for (var j = 0u; j < 200u; j++) { if (a[0] < t[j]) { t[k] += a[0]; } } }
+         o[i] = t[7];",
+    ));
+    let ranges = vec![range_scalar::<Range>(-1.0, 1.0).unwrap()];
+    let limits = Limits {
+        operations: 300_000,
+        ..Limits::default()
+    };
+    let b = || {
+        Bindings::<Range>::new()
+            .scalars(0, 0, ranges.clone())
+            .floats(0, 1, &[0.0])
+    };
+    let error = run_compute(&p, &mut b(), [1, 1, 1], &limits).unwrap_err();
+    assert!(matches!(error, Error::Budget { .. }), "{error}");
+    // Negative control: without forks the same loops fit.
+    let mut point = Bindings::<F32>::new().floats(0, 0, &[0.5]).floats(0, 1, &[0.0]);
+    assert!(
+        run_compute(
+            &p,
+            &mut point,
+            [1, 1, 1],
+            &Limits {
+                operations: 1_000_000,
+                ..limits
+            }
+        )
+        .is_ok()
+    );
 }

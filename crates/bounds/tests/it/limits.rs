@@ -188,3 +188,16 @@ fn memory_limits_are_errors() {
     let e = run_probe::<Accept>(&p, &[1.0], 1, 1, &limits).unwrap_err();
     assert!(matches!(e, Error::Memory { .. }), "{e}");
 }
+
+/// The lesser of a NaN and a number is the number on many machines, so a range that may be NaN lets the other argument through.
+#[test]
+fn a_possible_nan_lets_the_other_argument_through() {
+    let ranges = [(-1.0, 4.0), (7.0, 8.0)];
+    let x = over("o[i] = min(sqrt(a[0]), a[1]);", &ranges);
+    assert!(x.contains(8.0) && x.contains(0.0), "{x:?}");
+    let x = over("o[i] = max(a[1] - 9.0, sqrt(a[0]));", &ranges);
+    assert!(x.contains(-2.0) && x.contains(2.0), "{x:?}");
+    // Negative control: without the NaN nothing of the sort.
+    let x = over("o[i] = min(sqrt(abs(a[0])), a[1]);", &ranges);
+    assert!(!x.contains(8.0), "{x:?}");
+}
