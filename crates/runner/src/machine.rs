@@ -1,7 +1,7 @@
 //! What runs jobs: a [`Device`] with a driver, or any other implementation that answers the same questions.
 //!
 //! A job says what is to be computed, a machine computes it. Whoever runs jobs takes `&dyn Machine`, so that it works as well
-//! where there is no driver. Times are asked of a `Device` alone: what no driver has run says nothing about a GPU's speed.
+//! where there is no driver. Times come from a `Device` alone: what no driver has run says nothing about a GPU's speed.
 
 use std::fmt::Debug;
 
@@ -10,6 +10,7 @@ use crate::compute::{ComputeJob, ComputeOutput};
 use crate::device::Device;
 use crate::error::Error;
 use crate::render::{RenderJob, RenderOutput};
+use crate::timing::{self, TimedJob, Timing, TimingOptions};
 
 /// How much goes into one dispatch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +40,14 @@ pub trait Machine: Debug + Send + Sync {
     /// # Errors
     /// When meshes, resources or targets don't fit the shaders, the machine refuses, or memory ends.
     fn render(&self, job: &RenderJob<'_>) -> Result<RenderOutput, Error>;
+
+    /// How long jobs take, in turns; `None` from a machine whose times say nothing about a driver's.
+    ///
+    /// # Errors
+    /// As running the jobs.
+    fn time(&self, _jobs: &[TimedJob<'_>], _options: &TimingOptions) -> Option<Result<Vec<Timing>, Error>> {
+        None
+    }
 }
 
 impl Machine for Device {
@@ -61,6 +70,10 @@ impl Machine for Device {
     fn render(&self, job: &RenderJob<'_>) -> Result<RenderOutput, Error> {
         job.prepare(self)?.run(self, job)
     }
+
+    fn time(&self, jobs: &[TimedJob<'_>], options: &TimingOptions) -> Option<Result<Vec<Timing>, Error>> {
+        Some(timing::time(self, jobs, options))
+    }
 }
 
 impl<M: Machine + ?Sized> Machine for &M {
@@ -78,5 +91,9 @@ impl<M: Machine + ?Sized> Machine for &M {
 
     fn render(&self, job: &RenderJob<'_>) -> Result<RenderOutput, Error> {
         (**self).render(job)
+    }
+
+    fn time(&self, jobs: &[TimedJob<'_>], options: &TimingOptions) -> Option<Result<Vec<Timing>, Error>> {
+        (**self).time(jobs, options)
     }
 }

@@ -34,6 +34,7 @@ pub fn cases(scope: &Scope) -> Vec<Box<dyn Case>> {
     cases.extend(mikktspace::cases());
     cases.extend(normalisation_cube_map::cases());
     cases.extend(scene::cases(&scope.scenes));
+    cases.extend(scene::two_pass::cases());
     cases.sort_by(|a, b| a.id().cmp(b.id()));
     cases
 }

@@ -8,8 +8,10 @@
 //! Textures are given with one level, which is what the reference models. Objects are rendered one by one.
 
 mod pixels;
+mod rig;
 mod surface;
 mod truth;
+pub mod two_pass;
 mod upload;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,0 +1,129 @@
+//! A draw of a scene made ready for jobs: its modules on the bench's route, its mesh and its textures.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use bossage_runner::{
+    Blend, Clear, Cull, Depth, Draw as RunnerDraw, Mesh, Picture, RenderJob, RenderTarget, Resources,
+    SamplerSettings, Shader, TextureData,
+};
+use bossage_scene::Draw;
+use bossage_shaders::{FeatureSet, Stage};
+use bossage_translate::manifest::Entry;
+
+use super::upload::{address, mesh, textures};
+use crate::bench::Bench;
+use crate::case::with_causes;
+use crate::module::Module;
+use crate::route::Prepared;
+
+/// A draw with its vertex module and some fragment modules.
+pub(super) struct Rig<'a> {
+    draw: &'a Draw,
+    vertex: Arc<Prepared>,
+    fragments: BTreeMap<Stage, Arc<Prepared>>,
+    mesh: Mesh,
+    textures: Vec<(String, TextureData)>,
+}
+
+impl<'a> Rig<'a> {
+    /// Prepares the modules of these features for a draw.
+    pub(super) fn new(
+        bench: &Bench<'_>,
+        draw: &'a Draw,
+        features: &FeatureSet,
+        fragments: &[Stage],
+    ) -> Result<Self, String> {
+        let features = *features;
+        let module = |stage| bench.module(&Module::Surface { features, stage });
+        let prepared = |&stage: &Stage| Ok((stage, module(stage)?));
+        Ok(Self {
+            draw,
+            vertex: module(Stage::Vertex)?,
+            fragments: fragments.iter().map(prepared).collect::<Result<_, String>>()?,
+            mesh: mesh(draw),
+            textures: textures(draw),
+        })
+    }
+
+    /// The entry point of a fragment module.
+    pub(super) fn entry(&self, stage: Stage) -> Result<&Entry, String> {
+        Ok(self.fragment(stage)?.entry)
+    }
+
+    fn fragment(&self, stage: Stage) -> Result<Shader<'_>, String> {
+        let prepared = self.fragments.get(&stage);
+        let prepared = prepared.ok_or_else(|| format!("{stage:?} was not prepared"))?;
+        prepared.shader("surface_fragment")
+    }
+
+    /// The mesh with one of the fragment modules.
+    pub(super) fn with(&self, stage: Stage, blend: Blend, depth: Depth) -> Result<RunnerDraw<'_>, String> {
+        let (vertex, fragment) = (self.vertex.shader("surface_vertex")?, self.fragment(stage)?);
+        Ok(RunnerDraw {
+            vertex,
+            fragment,
+            mesh: &self.mesh,
+            resources: self.resources(&[&vertex, &fragment]),
+            cull: Cull::None,
+            blend,
+            depth,
+        })
+    }
+
+    /// What these stages bind.
+    fn resources(&self, stages: &[&Shader<'_>]) -> Resources<'_> {
+        let bound = |name: &str| stages.iter().any(|stage| stage.binding(name).is_some());
+        let sampler = SamplerSettings {
+            address: address(self.draw.edge),
+            ..SamplerSettings::default()
+        };
+        let named = self.textures.iter().filter(|(name, _)| bound(name));
+        Resources {
+            uniforms: self.draw.uniforms.clone(),
+            textures: named.map(|(name, texture)| (name.clone(), texture)).collect(),
+            samplers: bound("surface_sampler")
+                .then(|| ("surface_sampler".to_owned(), sampler))
+                .into_iter()
+                .collect(),
+            ..Resources::default()
+        }
+    }
+
+    /// One fragment module alone, in so many float targets.
+    pub(super) fn floats(
+        &self,
+        bench: &Bench<'_>,
+        stage: Stage,
+        size: [u32; 2],
+        targets: usize,
+    ) -> Result<Vec<Picture>, String> {
+        let draw = self.with(stage, Blend::Replace, Depth::TestAndWrite)?;
+        let targets = vec![RenderTarget::floats(Clear::Sentinel); targets];
+        render(bench, &job(&self.draw.object, size, targets, vec![vec![draw]]))
+    }
+}
+
+/// A job without its depth.
+pub(super) fn job<'a>(
+    name: &'a str,
+    [width, height]: [u32; 2],
+    targets: Vec<RenderTarget>,
+    passes: Vec<Vec<RunnerDraw<'a>>>,
+) -> RenderJob<'a> {
+    RenderJob {
+        name,
+        width,
+        height,
+        targets,
+        read_depth: false,
+        passes,
+    }
+}
+
+pub(super) fn render(bench: &Bench<'_>, job: &RenderJob<'_>) -> Result<Vec<Picture>, String> {
+    Ok(job
+        .run(bench.device)
+        .map_err(|error| with_causes(&error))?
+        .targets)
+}
