@@ -35,6 +35,7 @@ pub fn cases(scope: &Scope) -> Vec<Box<dyn Case>> {
     cases.extend(normalisation_cube_map::cases());
     cases.extend(scene::cases(&scope.scenes));
     cases.extend(scene::two_pass::cases());
+    cases.extend(scene::displacement::cases());
     cases.sort_by(|a, b| a.id().cmp(b.id()));
     cases
 }

@@ -7,6 +7,7 @@
 //!
 //! Textures are given with one level, which is what the reference models. Objects are rendered one by one.
 
+pub mod displacement;
 mod pixels;
 mod rig;
 mod surface;
