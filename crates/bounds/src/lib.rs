@@ -48,10 +48,12 @@
 //!
 //! # What is sound, and under which assumptions
 //!
-//! `Accept` contains every result that the accuracy table of WGSL allows for the operations as written, fused multiply-adds and
-//! all orders of the additions inside `dot` and matrix products included, with subnormal numbers flushed or not. Assumptions:
+//! `Accept` contains every result that the accuracy table of WGSL allows, fused multiply-adds and all orders of additions and of
+//! multiplications included (those inside `dot` and matrix products, and those of sums and products as written, which WGSL lets a
+//! compiler reassociate), with subnormal numbers flushed or not. Assumptions:
 //!
-//! - User-written sums are not reassociated, which WGSL would allow without bound.
+//! - Sums and products are reassociated within one function and one straight line of code, up to sixteen terms and four factors.
+//!   Quotients stay as written, and nothing is multiplied out or factored.
 //! - An exactly zero quotient or root is zero; `atan2(0, x)` for `x > 0` is as accurate as beside it.
 //! - `determinant` and derivatives, for which WGSL states no accuracy, have the accuracy of their formulas.
 //! - `f64`, which WGSL does not have, has the `f32` entries of the table in its own units.

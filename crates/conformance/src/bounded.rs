@@ -170,5 +170,16 @@ impl Bounded {
     }
 }
 
+impl From<Bounded> for crate::bound::Bound {
+    fn from(bounded: Bounded) -> Self {
+        let bound = Self::between(bounded.low(), bounded.high());
+        if bounded.forked && bound.is_decided() {
+            bound.forked()
+        } else {
+            bound
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests;

@@ -1,15 +1,15 @@
 //! The comparator: computed outputs against truth and acceptance intervals.
 //!
 //! An output passes when it lies in its interval; the truth must lie there too, otherwise two oracles disagree and that is
-//! a failure of ours. An output on which the rules say nothing (`Bounded::OPEN`) is counted as undecided and judged by
-//! nothing but having been written. Outputs still holding the sentinel were never written: a failure.
+//! a failure of ours. An output on which the rules say nothing (`Bound::OPEN`) is counted as undecided and judged by
+//! nothing but having been written, unless the case demands answers. Outputs still holding the sentinel were never written: a failure.
 
 use std::fmt;
 
 use bossage_runner::is_unwritten;
 use serde::Serialize;
 
-use crate::bounded::Bounded;
+use crate::bound::Bound;
 use crate::report::json::Number;
 use crate::ulp::{MIN_NORMAL, error_ulps};
 
@@ -19,7 +19,7 @@ pub struct Expected {
     /// The f64 reference.
     pub truth: f64,
     /// What an implementation may return.
-    pub bound: Bounded,
+    pub bound: Bound,
 }
 
 /// Why an output was refused.
@@ -34,6 +34,8 @@ pub enum Refusal {
     NotFinite,
     /// The truth lies outside of the interval: the oracles disagree.
     OraclesDisagree,
+    /// The rules leave it open where the function promises an answer.
+    Open,
 }
 
 impl Refusal {
@@ -45,6 +47,9 @@ impl Refusal {
             Self::Outside => "outside of the acceptance interval",
             Self::NotFinite => "not finite where the interval is",
             Self::OraclesDisagree => "the oracles disagree: the f64 reference lies outside of the interval",
+            Self::Open => {
+                "the accuracy rules leave this output open, inside the function's documented domain"
+            }
         }
     }
 }
@@ -116,6 +121,8 @@ pub struct Comparison {
     pub refusal: Option<Refusal>,
     /// The worst output.
     pub worst: Option<Worst>,
+    /// Whether an output on which the rules say nothing is refused.
+    demands_answers: bool,
     /// The badness of `worst`, for merging.
     badness: f64,
 }
@@ -126,6 +133,15 @@ impl Comparison {
     pub fn of_property(outputs: usize) -> Self {
         Self {
             outputs,
+            ..Self::default()
+        }
+    }
+
+    /// For inputs inside the documented domain of a function that promises an answer there: open outputs are refused.
+    #[must_use]
+    pub fn demanding_answers() -> Self {
+        Self {
+            demands_answers: true,
             ..Self::default()
         }
     }
@@ -144,8 +160,9 @@ impl Comparison {
     fn output(&mut self, input: &[f32], output: usize, got: f32, expected: &Expected) {
         self.outputs += 1;
         self.undecided += usize::from(!expected.bound.is_decided());
-        self.forked += usize::from(expected.bound.forked);
-        let refusal = refusal(got, expected);
+        self.forked += usize::from(expected.bound.is_forked());
+        let open = self.demands_answers && !expected.bound.is_decided();
+        let refusal = refusal(got, expected).or(open.then_some(Refusal::Open));
         self.refused += usize::from(refusal.is_some());
         let badness = badness(got, expected, refusal);
         if self.worst.is_none() || badness > self.badness {
@@ -179,12 +196,12 @@ impl Comparison {
     }
 }
 
-/// Whether the truth lies in the interval, with room for the rounding of both float64 evaluations.
+/// Whether the truth lies in the interval, with room for the rounding of the float64 reference.
 fn oracles_agree(expected: &Expected) -> bool {
-    // Some tens of operations at 2^-53 each, relative to the value.
-    let rounding = 64.0 * f64::EPSILON * expected.bound.value.abs() + f64::MIN_POSITIVE;
-    !expected.bound.is_decided()
-        || (expected.truth - expected.bound.value).abs() <= expected.bound.error + rounding
+    let (low, high) = (expected.bound.low(), expected.bound.high());
+    // Some tens of operations at 2^-53 each, relative to the largest magnitude there is.
+    let rounding = 64.0 * f64::EPSILON * low.abs().max(high.abs()) + f64::MIN_POSITIVE;
+    !expected.bound.is_decided() || (low - rounding <= expected.truth && expected.truth <= high + rounding)
 }
 
 fn refusal(got: f32, expected: &Expected) -> Option<Refusal> {
@@ -211,19 +228,26 @@ fn badness(got: f32, expected: &Expected, refusal: Option<Refusal>) -> f64 {
     match refusal {
         Some(Refusal::Unwritten) => 4e30,
         Some(Refusal::OraclesDisagree) => 3e30,
+        Some(Refusal::Open) => 2.5e30,
         Some(Refusal::NotFinite) => 2e30,
         Some(Refusal::Outside) => 1e30 + share,
-        None if expected.bound.forked || expected.truth.abs() < MIN_NORMAL => 0.0,
+        None if expected.bound.is_forked() || expected.truth.abs() < MIN_NORMAL => 0.0,
         None => share,
     }
 }
 
+/// The error as a share of the room that the interval leaves on that side of the truth.
 fn share_of_bound(got: f64, expected: &Expected) -> Option<f64> {
-    let distance = (got - expected.bound.value).abs();
+    let distance = (got - expected.truth).abs();
+    let room = if got < expected.truth {
+        expected.truth - expected.bound.low()
+    } else {
+        expected.bound.high() - expected.truth
+    };
     match expected.bound.is_decided() {
         false => None,
         true if distance == 0.0 => Some(0.0),
-        true => Some(distance / expected.bound.error).filter(|share| !share.is_nan()),
+        true => Some(distance / room).filter(|share| !share.is_nan()),
     }
 }
 
@@ -248,12 +272,12 @@ mod tests {
     use bossage_runner::SENTINEL;
 
     use super::{Comparison, Expected, Refusal};
-    use crate::bounded::Bounded;
+    use crate::bound::Bound;
 
     fn expect(truth: f64, error: f64) -> Expected {
         Expected {
             truth,
-            bound: Bounded::within(truth, error),
+            bound: Bound::between(truth - error, truth + error),
         }
     }
 
@@ -280,11 +304,23 @@ mod tests {
     fn unwritten_is_refused_even_where_the_rules_say_nothing() {
         let open = Expected {
             truth: f64::NAN,
-            bound: Bounded::OPEN,
+            bound: Bound::OPEN,
         };
         assert_eq!(compare(SENTINEL, open).refusal, Some(Refusal::Unwritten));
         let other = compare(f32::NAN, open);
         assert_eq!((other.refused, other.undecided), (0, 1));
+    }
+
+    #[test]
+    fn an_open_output_is_refused_where_an_answer_is_promised() {
+        let open = Expected {
+            truth: 1.0,
+            bound: Bound::OPEN,
+        };
+        let mut promised = Comparison::demanding_answers();
+        promised.item(&[], &[1.0], &[open]);
+        assert_eq!((promised.refused, promised.refusal), (1, Some(Refusal::Open)));
+        assert_eq!(compare(1.0, open).refused, 0);
     }
 
     #[test]
@@ -303,7 +339,7 @@ mod tests {
     fn disagreeing_oracles_are_refused_although_the_output_is_in_the_interval() {
         let expected = Expected {
             truth: 2.0,
-            bound: Bounded::within(1.0, 0.1),
+            bound: Bound::between(0.9, 1.1),
         };
         assert_eq!(compare(1.0, expected).refusal, Some(Refusal::OraclesDisagree));
     }
@@ -322,10 +358,7 @@ mod tests {
     fn a_fork_does_not_hide_a_rounding_error() {
         let sign = Expected {
             truth: 1.0,
-            bound: Bounded {
-                forked: true,
-                ..Bounded::within(1.0, 2.0)
-            },
+            bound: Bound::between(-1.0, 3.0).forked(),
         };
         let mut comparison = compare(1.05, expect(1.0, 0.1));
         comparison.item(&[], &[-1.0], &[sign]);

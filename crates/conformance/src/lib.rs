@@ -2,8 +2,8 @@
 //!
 //! A **case** ([`case_id`]) is a function, a bake, a mesh or a scene with a generator of inputs. A **route** ([`route`]) is a
 //! way from the assembled shader to results. Each output is judged by two oracles that know nothing of each other: **truth**,
-//! the f64 reference, and the **acceptance interval** of the WGSL accuracy rules at that very input ([`bounded`],
-//! [`tolerance`]). The output must lie in the interval, and so must the truth. Vocabulary and rules: `docs/numerics.md`.
+//! the f64 reference, and the **acceptance interval**, which `bossage-bounds` evaluates from the very module that is run, by
+//! the WGSL accuracy rules, at that very input ([`bound`], [`tolerance`]). The output must lie in the interval, and so must the truth. Vocabulary and rules: `docs/numerics.md`.
 //!
 //! Verdicts: pass, warning, failure, skip (always with a reason), expected failure. A published defect that does *not* show
 //! is a failure. Outputs are filled with a sentinel before the shader runs: what it does not write is a failure.
@@ -21,6 +21,7 @@
 //! ```
 
 pub mod bench;
+pub mod bound;
 pub mod bounded;
 pub mod case;
 pub mod case_id;

@@ -135,7 +135,7 @@ impl<'m> Builder<'m> {
                 a,
             });
         }
-        self.emit(frame, k, |dst| Op::FloatBinary { op, w, dst, a, b })
+        self.reorderable(frame, op, w, a, b)
     }
 
     fn product(
@@ -215,12 +215,14 @@ impl<'m> Builder<'m> {
         }
         let mut terms = [list[0]; 4];
         terms[..list.len()].copy_from_slice(list);
-        self.emit(frame, Kind::Float(w), |dst| Op::Sum {
+        let row = self.emit(frame, Kind::Float(w), |dst| Op::Sum {
             w,
             dst,
             terms,
             n: list.len() as u8,
-        })
+        })?;
+        self.chains.sum_of(row, list);
+        Ok(row)
     }
 }
 

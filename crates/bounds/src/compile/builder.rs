@@ -1,5 +1,6 @@
 //! Allocation of rows, emission of instructions, and the table of function instances.
 
+use super::chains::Chains;
 use super::code::{
     Block, Code, Constant, Effects, FunctionCode, HandleRef, Instr, Node, Op, Place, Root, Row,
 };
@@ -41,6 +42,7 @@ pub(crate) struct Builder<'m> {
     constants: HashMap<Constant, Row>,
     instances: HashMap<(Handle<Function>, Vec<Option<Val>>), usize>,
     spans: HashMap<(usize, usize), u32>,
+    pub(crate) chains: Chains,
     instructions: usize,
     depth: u32,
     /// The constant expressions met on the way, for the module's own arena.
@@ -79,6 +81,7 @@ impl<'m> Builder<'m> {
             constants: HashMap::new(),
             instances: HashMap::new(),
             spans: HashMap::new(),
+            chains: Chains::default(),
             instructions: 0,
             depth: 0,
             global_values: HashMap::new(),

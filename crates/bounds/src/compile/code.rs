@@ -95,6 +95,7 @@ pub(crate) enum Op {
         terms: [Row; 4],
         n: u8,
     },
+    Chain(Box<Chain>),
     FloatCompare {
         op: Compare,
         w: Width,
@@ -198,6 +199,24 @@ pub(crate) enum Op {
     ImageStore(Box<ImageStore>),
     ImageQuery(Box<ImageQuery>),
     Subgroup(Box<Subgroup>),
+}
+
+/// A term of a sum, or a factor of a product.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Term {
+    pub(crate) row: Row,
+    pub(crate) negative: bool,
+}
+
+/// `dst = a op b`, which may be computed from its terms in any order.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain {
+    pub(crate) op: FloatBinary,
+    pub(crate) w: Width,
+    pub(crate) dst: Row,
+    pub(crate) a: Row,
+    pub(crate) b: Row,
+    pub(crate) terms: Vec<Term>,
 }
 
 /// `dst[k] = groups[index][k]`: a run-time index into a value.

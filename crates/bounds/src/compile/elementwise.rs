@@ -18,7 +18,7 @@ impl<'m> Builder<'m> {
     ) -> Result<Val> {
         let k = self.kind_of(frame, expr)?;
         let rows = self.scalars(frame, expr)?;
-        self.map(frame, k, &rows, |dst, a| match (op, k) {
+        let out = self.map(frame, k, &rows, |dst, a| match (op, k) {
             (UnaryOperator::Negate, Kind::Float(w)) => Op::FloatUnary {
                 op: FloatUnary::Negate,
                 w,
@@ -40,7 +40,13 @@ impl<'m> Builder<'m> {
             (UnaryOperator::Negate | UnaryOperator::LogicalNot, Kind::Bool)
             | (UnaryOperator::LogicalNot | UnaryOperator::BitwiseNot, Kind::Float(_) | Kind::Bool)
             | (UnaryOperator::LogicalNot, Kind::Int(_)) => Op::Not { dst, a },
-        })
+        })?;
+        if let (UnaryOperator::Negate, Kind::Float(_), Val::Rows(negated)) = (op, k, &out) {
+            for (&row, &of) in negated.iter().zip(&rows) {
+                self.chains.negated(row, of);
+            }
+        }
+        Ok(out)
     }
 
     /// One instruction for each scalar of an operand.

@@ -6,6 +6,7 @@
 pub(crate) mod access;
 pub(crate) mod binary;
 pub(crate) mod builder;
+pub(crate) mod chains;
 pub(crate) mod code;
 pub(crate) mod elementwise;
 pub(crate) mod exchange;

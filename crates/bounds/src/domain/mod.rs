@@ -49,6 +49,8 @@ pub trait Domain: sealed::Sealed + Copy + PartialEq + std::fmt::Debug + Send + S
     type Float: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static;
     /// Whether a condition can be open, so that invocations may fork.
     const UNCERTAIN: bool;
+    /// Whether sums and products may be computed in another order than they are written in.
+    const REORDERS: bool;
     /// The name used in reports.
     const NAME: &'static str;
 
@@ -88,6 +90,9 @@ pub trait Domain: sealed::Sealed + Copy + PartialEq + std::fmt::Debug + Send + S
     fn ternary(op: FloatTernary, w: Width, a: Self::Cell, b: Self::Cell, c: Self::Cell) -> Self::Cell;
     /// The sum of two to four terms, in any order of additions an implementation may choose.
     fn sum(w: Width, terms: &[Self::Cell]) -> Self::Cell;
+    /// What a sum (or difference) or a product that came out as `written` may be in any order of its terms, of which there are
+    /// more than two. Asked only of a domain that [`Domain::REORDERS`].
+    fn reordered(op: FloatBinary, w: Width, written: Self::Cell, terms: &[Self::Cell]) -> Self::Cell;
     /// A comparison of floats.
     fn compare(op: Compare, w: Width, a: Self::Cell, b: Self::Cell) -> Self::Cell;
     /// The exponent that `frexp` returns, as an `i32`.

@@ -249,6 +249,7 @@ macro_rules! point_domain {
             type Cell = u64;
             type Float = f64;
             const UNCERTAIN: bool = false;
+            const REORDERS: bool = false;
             const NAME: &'static str = $label;
 
             #[inline(always)]
@@ -318,6 +319,9 @@ macro_rules! point_domain {
                     total = $round(w, total + f(t));
                 }
                 total.to_bits()
+            }
+            fn reordered(_op: FloatBinary, _w: Width, written: u64, _terms: &[u64]) -> u64 {
+                written
             }
             #[inline(always)]
             fn compare(op: Compare, _w: Width, a: u64, b: u64) -> u64 {

@@ -4,7 +4,8 @@
 //! loop over slices: over all lanes where all are active, over the list of active lanes otherwise.
 
 use super::machine::Machine;
-use crate::compile::code::{Instr, Op, Row};
+use crate::compile::chains::MAX_TERMS;
+use crate::compile::code::{Chain, Instr, Op, Row};
 use crate::domain::Domain;
 use crate::domain::ops::{Compare, FloatBinary, FloatTernary, FloatUnary, IntBinary};
 use crate::error::Result;
@@ -38,6 +39,7 @@ impl<'a, D: Domain> Machine<'a, D> {
                 self.float_ternary(*op, *w, *dst, [*a, *b, *c], active)
             }
             Op::Sum { w, dst, terms, n } => self.sum(*w, *dst, &terms[..*n as usize], active),
+            Op::Chain(chain) => self.chain(chain, active),
             Op::FloatCompare { op, w, dst, a, b } => self.float_compare(*op, *w, (*dst, *a, *b), active),
             Op::FrexpExponent { w, dst, a } => self.map1(*dst, *a, active, |x| D::frexp_exponent(*w, x)),
             Op::Ldexp { w, dst, a, b } => self.map2(*dst, *a, *b, active, |x, e| D::ldexp(*w, x, e)),
@@ -262,6 +264,28 @@ impl<'a, D: Domain> Machine<'a, D> {
                 *to = self.get(row, lane);
             }
             self.set(dst, lane, D::sum(w, &list[..terms.len()]));
+        }
+    }
+
+    /// As written; in a domain of what machines may do, in any order of its terms too.
+    fn chain(&mut self, chain: &Chain, active: &[u32]) {
+        self.float_binary(chain.op, chain.w, (chain.dst, chain.a, chain.b), active);
+        if !D::REORDERS {
+            return;
+        }
+        let mut cells = [D::Cell::default(); MAX_TERMS];
+        for &lane in active {
+            for (to, term) in cells.iter_mut().zip(&chain.terms) {
+                let cell = self.get(term.row, lane);
+                *to = if term.negative {
+                    D::unary(FloatUnary::Negate, chain.w, cell)
+                } else {
+                    cell
+                };
+            }
+            let written = self.get(chain.dst, lane);
+            let any = D::reordered(chain.op, chain.w, written, &cells[..chain.terms.len()]);
+            self.set(chain.dst, lane, any);
         }
     }
 

@@ -279,36 +279,3 @@ pub(crate) fn smooth_step<const ABSORB: bool>(
     );
     multiply::<ABSORB>(w, square::<ABSORB>(w, t), falling)
 }
-
-/// The sum of terms in every order of additions.
-pub(crate) fn sum<const ABSORB: bool>(w: Width, t: &[Interval]) -> Interval {
-    let add = |a, b| add::<ABSORB>(w, a, b);
-    match *t {
-        [] => Interval::point(0.0),
-        [a] => a,
-        [a, b] => add(a, b),
-        [a, b, c] => three(&add, a, b, c),
-        [a, b, c, d, ..] => four(&add, a, b, c, d),
-    }
-}
-
-fn three(add: &impl Fn(Interval, Interval) -> Interval, a: Interval, b: Interval, c: Interval) -> Interval {
-    add(add(a, b), c).hull(add(add(a, c), b)).hull(add(add(b, c), a))
-}
-
-fn four(
-    add: &impl Fn(Interval, Interval) -> Interval,
-    a: Interval,
-    b: Interval,
-    c: Interval,
-    d: Interval,
-) -> Interval {
-    let chains = add(three(add, b, c, d), a)
-        .hull(add(three(add, a, c, d), b))
-        .hull(add(three(add, a, b, d), c))
-        .hull(add(three(add, a, b, c), d));
-    let pairs = add(add(a, b), add(c, d))
-        .hull(add(add(a, c), add(b, d)))
-        .hull(add(add(a, d), add(b, c)));
-    chains.hull(pairs)
-}

@@ -13,10 +13,16 @@ pub(crate) fn float_to_float<const A: bool>(from: Width, to: Width, x: Interval)
     if to >= from { x } else { round_to::<A>(to, x) }
 }
 
-/// Float to integer: truncated and clamped, monotone.
+/// Float to integer: truncated and clamped, monotone; across a step it forks.
 pub(crate) fn float_to_integer(w: Width, t: IntType, x: Interval) -> (Bounds, Flags) {
     if x.flags.is_none() {
-        ((float_to_int(w, t, x.lo), float_to_int(w, t, x.hi)), Flags::NONE)
+        let bounds = (float_to_int(w, t, x.lo), float_to_int(w, t, x.hi));
+        let forked = if bounds.0 == bounds.1 {
+            Flags::NONE
+        } else {
+            Flags::FORKED
+        };
+        (bounds, x.flags.union(forked))
     } else {
         (whole(t), x.flags)
     }
@@ -53,9 +59,9 @@ pub(crate) fn bits_of(w: Width, x: Interval) -> (Bounds, Flags) {
     );
     let crosses_zero = x.lo != x.hi && x.contains_zero() && !(x.lo == 0.0 && x.lo.is_sign_positive());
     if crosses_zero {
-        (all, Flags::NONE)
+        (all, x.flags)
     } else {
-        ((a.min(b), a.max(b)), Flags::NONE)
+        ((a.min(b), a.max(b)), x.flags)
     }
 }
 
@@ -67,7 +73,7 @@ pub(crate) fn float_of<const A: bool>(w: Width, (lo, hi): Bounds, flags: Flags) 
     if open {
         return open_pattern::<A>(x, y, lo == hi).flagged(flags);
     }
-    flush(w, Interval::new(x.min(y), x.max(y)))
+    flush(w, Interval::new(x.min(y), x.max(y))).flagged(flags)
 }
 
 fn open_pattern<const A: bool>(x: f64, y: f64, point: bool) -> Interval {

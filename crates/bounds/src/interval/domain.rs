@@ -2,7 +2,8 @@
 
 use super::integers::{self, Bounds};
 use super::rules::{flush, outward};
-use super::{Accept, Flags, Interval, Range, WideCell, arithmetic, bits, functions};
+use super::{Accept, Flags, Interval, Range, WideCell, arithmetic, bits, functions, orders};
+use crate::compile::chains::MAX_TERMS;
 use crate::domain::ops::{BoolBinary, Compare, FloatBinary, FloatTernary, FloatUnary, IntBinary, IntUnary};
 use crate::domain::point::{bits_type, frexp};
 use crate::domain::{Domain, Truth, sealed};
@@ -63,10 +64,19 @@ fn unknown(kind: Kind, flags: Flags) -> WideCell {
     }
 }
 
+/// Either of two cells, marked as such where they differ.
 fn hull(kind: Kind, a: WideCell, b: WideCell) -> WideCell {
-    let flags = a.flags.union(b.flags);
+    let same = match kind {
+        Kind::Float(_) => {
+            let (a, b) = (a.interval(), b.interval());
+            a.lo == b.lo && a.hi == b.hi
+        }
+        Kind::Int(_) | Kind::Bool => a.lo == b.lo && a.hi == b.hi,
+    };
+    let forked = if same { Flags::NONE } else { Flags::FORKED };
+    let flags = a.flags.union(b.flags).union(forked);
     match kind {
-        Kind::Float(_) => put_float(a.interval().hull(b.interval())),
+        Kind::Float(_) => put_float(a.interval().hull(b.interval()).flagged(forked)),
         Kind::Int(t) => {
             let (x, y) = (get_int(t, a), get_int(t, b));
             put_int((x.0.min(y.0), x.1.max(y.1)), flags)
@@ -95,12 +105,12 @@ fn binary<const A: bool>(op: FloatBinary, w: Width, a: Interval, b: Interval) ->
 fn step(edge: Interval, x: Interval) -> Interval {
     let flags = edge.flags.union(x.flags);
     match integers::compare(Compare::LessEqual, (edge.lo, edge.hi), (x.lo, x.hi)) {
-        Truth::True if flags.is_none() => Interval::point(1.0),
-        Truth::False if flags.is_none() => Interval::point(0.0),
+        Truth::True if flags.is_none() => Interval::point(1.0).flagged(flags),
+        Truth::False if flags.is_none() => Interval::point(0.0).flagged(flags),
         Truth::True | Truth::False | Truth::Maybe => Interval {
             lo: 0.0,
             hi: 1.0,
-            flags,
+            flags: flags.union(Flags::FORKED),
         },
     }
 }
@@ -198,6 +208,7 @@ macro_rules! interval_domain {
             type Cell = WideCell;
             type Float = Interval;
             const UNCERTAIN: bool = true;
+            const REORDERS: bool = $absorb;
             const NAME: &'static str = $label;
 
             #[inline(always)]
@@ -277,7 +288,19 @@ macro_rules! interval_domain {
                 for (to, from) in list.iter_mut().zip(terms) {
                     *to = from.interval();
                 }
-                put_float(arithmetic::sum::<$absorb>(w, &list[..n]))
+                put_float(orders::of_four::<$absorb>(w, &list[..n]))
+            }
+            fn reordered(op: FloatBinary, w: Width, written: WideCell, terms: &[WideCell]) -> WideCell {
+                let mut list = [Interval::point(0.0); MAX_TERMS];
+                for (to, from) in list.iter_mut().zip(terms) {
+                    *to = from.interval();
+                }
+                let terms = &list[..terms.len()];
+                put_float(if op == FloatBinary::Multiply {
+                    orders::product::<$absorb>(w, written.interval(), terms)
+                } else {
+                    orders::sum::<$absorb>(w, written.interval(), terms)
+                })
             }
             #[inline(always)]
             fn compare(op: Compare, _w: Width, a: WideCell, b: WideCell) -> WideCell {
@@ -291,7 +314,7 @@ macro_rules! interval_domain {
                     return unknown(Kind::Int(IntType::I32), x.flags.union(Flags::INDETERMINATE));
                 }
                 let (e, f) = (i128::from(frexp(w, x.lo).1), i128::from(frexp(w, x.hi).1));
-                put_int((e.min(f), e.max(f)), Flags::NONE)
+                put_int((e.min(f), e.max(f)), x.flags)
             }
             fn ldexp(w: Width, x: WideCell, e: WideCell) -> WideCell {
                 let (lo, hi) = get_int(IntType::I32, e);

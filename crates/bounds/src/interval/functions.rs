@@ -97,15 +97,19 @@ fn rarer<const A: bool>(op: FloatUnary, w: Width, a: Interval) -> Interval {
     }
 }
 
-/// A non-decreasing function whose results need no rounding.
+/// A non-decreasing step function, whose results need no rounding; across a step it forks.
 #[inline(always)]
 fn exact<const A: bool>(a: Interval, f: impl Fn(f64) -> f64) -> Interval {
     match enter::<A>(a.flags) {
-        Ok(flags) => Interval {
-            lo: f(a.lo),
-            hi: f(a.hi),
-            flags,
-        },
+        Ok(flags) => {
+            let (lo, hi) = (f(a.lo), f(a.hi));
+            let forked = if lo == hi { Flags::NONE } else { Flags::FORKED };
+            Interval {
+                lo,
+                hi,
+                flags: flags.union(forked),
+            }
+        }
         Err(unknown) => unknown,
     }
 }
@@ -136,7 +140,7 @@ fn fract<const A: bool>(w: Width, a: Interval) -> Interval {
         if step == hi.floor() && lo.is_finite() {
             outward_difference::<A>(w, lo, hi, step)
         } else if lo.is_finite() && hi.is_finite() {
-            Interval::new(0.0, 1.0)
+            Interval::new(0.0, 1.0).flagged(Flags::FORKED)
         } else {
             Interval::new(0.0, 1.0).flagged(Flags::NAN)
         }

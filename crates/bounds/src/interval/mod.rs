@@ -14,6 +14,7 @@ pub(crate) mod bits;
 pub(crate) mod domain;
 pub(crate) mod functions;
 pub(crate) mod integers;
+pub(crate) mod orders;
 pub(crate) mod rules;
 
 use crate::width::Width;
@@ -39,6 +40,9 @@ impl Flags {
     pub const UNDECIDED: Self = Self(2);
     /// The value may be NaN (in [`Range`] only).
     pub const NAN: Self = Self(4);
+    /// An undecided choice lies on the way (a condition, a step such as `floor`, an index): the bounds are the hull of several
+    /// results. They still bound the value, so this flag alone opens nothing.
+    pub const FORKED: Self = Self(8);
 
     /// Both sets.
     #[inline(always)]
@@ -52,10 +56,10 @@ impl Flags {
         self.0 & other.0 != 0
     }
 
-    /// True when nothing is flagged.
+    /// True when nothing is flagged that would leave the value open; [`Flags::FORKED`] does not.
     #[inline(always)]
     pub const fn is_none(self) -> bool {
-        self.0 == 0
+        self.0 & !Self::FORKED.0 == 0
     }
 }
 
@@ -65,6 +69,7 @@ impl std::fmt::Debug for Flags {
             (Self::INDETERMINATE, "indeterminate"),
             (Self::UNDECIDED, "undecided"),
             (Self::NAN, "nan"),
+            (Self::FORKED, "forked"),
         ];
         f.write_str("{")?;
         for (flag, name) in names.into_iter().filter(|(flag, _)| self.has(*flag)) {
@@ -143,6 +148,11 @@ impl Interval {
     /// A limit of the evaluation was reached on the way to the value.
     pub fn is_undecided(&self) -> bool {
         self.flags.has(Flags::UNDECIDED)
+    }
+
+    /// The bounds join several results, because a choice on the way could not be decided.
+    pub fn is_forked(&self) -> bool {
+        self.flags.has(Flags::FORKED)
     }
 
     /// The number of steps of the format between the bounds; `None` when the value is open.

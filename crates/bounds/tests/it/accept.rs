@@ -308,3 +308,104 @@ fn half_precision_rules() {
     assert!((got[1].hi - got[1].lo - 2.0 * 2f64.powi(-7)).abs() < w.ulp(0.9) + w.ulp(1.5));
     assert!(got[2].contains(1.5 / 0.001) && got[3].is_indeterminate());
 }
+
+/// Where a choice is undecided, the hull of both results says so, and everything computed from it; where it is decided, or both
+/// results are equal, nothing is marked.
+#[test]
+fn undecided_choices_are_marked_and_still_bounded() {
+    // 1/3 - a third of 1 is zero within its error.
+    let open = "let zero = a[0] / 3.0 - a[1];";
+    let inputs = [1.0, 1.0 / 3.0];
+    for (body, lo, hi) in [
+        ("o[i] = select(-1.0, 1.0, zero < 0.0) * 2.0;", -2.0, 2.0),
+        ("var y = 3.0; if (zero > 0.0) { y = 5.0; } o[i] = y;", 3.0, 5.0),
+        ("o[i] = floor(zero + 4.0);", 3.0, 4.0),
+        ("o[i] = f32(i32(zero + 4.0));", 3.0, 4.0),
+        ("o[i] = sign(zero);", -1.0, 1.0),
+        ("o[i] = step(0.0, zero);", 0.0, 1.0),
+    ] {
+        let x = probe::<Accept>(&format!("{open} {body}"), &inputs, 1)[0];
+        assert!(x.is_forked() && x.flags.is_none(), "{body}: {x:?}");
+        assert_eq!((x.lo, x.hi), (lo, hi), "{body}");
+    }
+    for body in [
+        "o[i] = select(2.0, 2.0, zero < 0.0);",
+        "o[i] = max(zero, 0.0);",
+        "o[i] = floor(a[0]);",
+        "o[i] = select(-1.0, 1.0, a[0] < 2.0);",
+    ] {
+        let x = probe::<Accept>(&format!("{open} {body}"), &inputs, 1)[0];
+        assert!(!x.is_forked(), "{body}: {x:?}");
+    }
+}
+
+/// A compiler may reassociate what is written as a sum or a product; what it may not do stays outside.
+#[test]
+fn sums_and_products_may_be_taken_in_another_order() {
+    let (big, third) = (1e8f32, 1.0f32 / 3.0);
+    // Written so that the small term is lost first, or kept to the end.
+    for (body, inputs, orders) in [
+        (
+            "o[i] = a[0] + a[1] + a[2];",
+            [big, third, -big],
+            [(big + third) - big, (big - big) + third],
+        ),
+        (
+            "o[i] = a[0] - (a[1] - a[2]);",
+            [big, big, third],
+            [big - (big - third), (big - big) + third],
+        ),
+        (
+            "let s = a[0] + a[1]; o[i] = -s + a[0];",
+            [big, third, 0.0],
+            [-(big + third) + big, -third],
+        ),
+        (
+            "var s = a[0]; s += a[1]; s += a[2]; o[i] = s;",
+            [big, third, -big],
+            [(big + third) - big, third],
+        ),
+        (
+            "o[i] = dot(a_xy, vec2f(1.0)) + a[2];",
+            [big, third, -big],
+            [(big + third) - big, (big - big) + third],
+        ),
+        (
+            "o[i] = a[0] * a[1] * a[2];",
+            [third, 0.7, 0.9],
+            [(third * 0.7) * 0.9, third * (0.7 * 0.9)],
+        ),
+    ] {
+        let body = format!("let a_xy = vec2f(a[0], a[1]); {body}");
+        let x = probe::<Accept>(&body, &inputs, 1)[0];
+        for order in orders {
+            assert!(x.contains(f64::from(order)), "{body}: {order} not in {x:?}");
+        }
+        // The wide sums span what is lost; nothing beyond.
+        assert!(
+            !x.contains(f64::from(orders[0]) + 40.0) && !x.contains(-40.0),
+            "{body}: {x:?}"
+        );
+        // Negative control: a perfect machine does as written, and input ranges are followed as written.
+        assert_eq!(probe::<F32>(&body, &inputs, 1)[0], f64::from(orders[0]), "{body}");
+        let range = probe::<Range>(&body, &inputs, 1)[0];
+        assert!(range.hi - range.lo < 40.0, "{body}: {range:?}");
+    }
+}
+
+/// More than four terms are bounded as a whole.
+#[test]
+fn a_long_sum_contains_every_order() {
+    let body = "o[i] = a[0] + a[1] + a[2] + a[3] + a[4] + a[5] + a[6];";
+    let values = [1e8f32, 1.0, -1e8, 0.5, 3e7, -0.3, 1e-3];
+    let x = probe::<Accept>(body, &values, 1)[0];
+    for shift in 0..7 {
+        for step in 1..7 {
+            let sum = (0..7).fold(0.0f32, |s, k| s + values[(shift + step * k) % 7]);
+            assert!(x.contains(f64::from(sum)), "{shift} {step}: {sum} not in {x:?}");
+        }
+    }
+    let exact: f64 = values.iter().copied().map(f64::from).sum();
+    // Six additions, each off by at most one unit of less than 2^29.
+    assert!(x.contains(exact) && !x.contains(exact + 400.0) && !x.contains(exact - 400.0));
+}

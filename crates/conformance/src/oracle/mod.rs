@@ -1,17 +1,21 @@
 //! The two oracles of a probe: truth in f64 and the acceptance interval at each input.
 //!
-//! They meet only here: [`expected`] evaluates both at an item's inputs. The comparator refuses a case where they disagree.
+//! They know nothing of each other and meet only in [`expected`]. Truth comes from the formula ([`truth`]); the interval from the
+//! IR of the shader that is run, evaluated over `bossage-bounds`' `Accept` domain. The comparator refuses a case where they
+//! disagree, so a shader that computes another formula is caught although its interval is its own.
 
 pub mod truth;
 
+use bossage_bounds::{Accept, Limits, Program};
 use bossage_shaders::Probe;
 
-use crate::bounded::Bounded;
+use crate::bound::Bound;
+use crate::case::with_causes;
 use crate::compare::Expected;
-use crate::tolerance;
+use crate::generate::Inputs;
 
 /// What the reports say about the oracles of a probe.
-pub const BASIS: [&str; 2] = ["reference f64", "accuracy rules at the input"];
+pub const BASIS: [&str; 2] = ["reference f64", "accuracy rules over the shader's IR"];
 
 /// An item's arguments, read one after the other.
 #[derive(Clone, Debug)]
@@ -62,121 +66,45 @@ impl<'a, T: Copy> Args<'a, T> {
     }
 }
 
-/// What a probe's outputs should be at an item's inputs. `None` where an oracle is missing.
+/// The acceptance intervals of each item's outputs, from the probe's own IR.
+///
+/// # Errors
+/// What the evaluator says: it lacks something that the shader needs.
+pub fn bounds(probe: &Probe, program: &Program, inputs: &Inputs) -> Result<Vec<Bound>, String> {
+    let outputs = probe.output_floats * inputs.len();
+    bossage_bounds::run_probe::<Accept>(program, &inputs.values, outputs, inputs.len(), &Limits::default())
+        .map(|(intervals, _)| intervals.into_iter().map(Bound::from).collect())
+        .map_err(|error| with_causes(&error))
+}
+
+/// The truth of one item's outputs. `None` where the table has none for the probe.
 #[must_use]
-pub fn expected(probe: &Probe, input: &[f32]) -> Option<Vec<Expected>> {
+pub fn truth_of(probe: &Probe, input: &[f32]) -> Option<Vec<f64>> {
     let exact: Vec<f64> = input.iter().copied().map(f64::from).collect();
-    let bounded: Vec<Bounded> = input.iter().copied().map(Bounded::input).collect();
-    let truth = truth::find(probe.function())?(&mut Args::new(&exact));
-    // Nothing is judged where the table has no row: the outputs count as undecided.
-    let bounds = match tolerance::find(probe.function()) {
-        Some(row) => (row.bound)(&mut Args::new(&bounded)),
-        None => vec![Bounded::OPEN; truth.len()],
+    truth::find(probe.function()).map(|truth| truth(&mut Args::new(&exact)))
+}
+
+/// What a probe's outputs should be, item by item.
+///
+/// # Errors
+/// When an oracle is missing, or has another number of outputs than the probe.
+pub fn expected(probe: &Probe, program: &Program, inputs: &Inputs) -> Result<Vec<Vec<Expected>>, String> {
+    let bounds = bounds(probe, program, inputs)?;
+    let pair = |(input, bounds): (&[f32], &[Bound])| {
+        let truth = truth_of(probe, input).ok_or_else(|| format!("no truth for `{}`", probe.function()))?;
+        if truth.len() != bounds.len() {
+            let (t, b) = (truth.len(), bounds.len());
+            return Err(format!("the truth has {t} outputs, the shader {b}"));
+        }
+        let both = truth.into_iter().zip(bounds);
+        Ok(both.map(|(truth, &bound)| Expected { truth, bound }).collect())
     };
-    Some(
-        truth
-            .into_iter()
-            .zip(bounds)
-            .map(|(truth, bound)| Expected { truth, bound })
-            .collect(),
-    )
+    inputs
+        .items()
+        .zip(bounds.chunks(probe.output_floats))
+        .map(pair)
+        .collect()
 }
 
 #[cfg(test)]
-mod tests {
-    use bossage_shaders::PROBES;
-
-    use super::{Args, expected, truth};
-    use crate::bounded::Bounded;
-    use crate::generate::random;
-    use crate::tolerance;
-
-    #[test]
-    fn every_probe_has_both_oracles_and_every_oracle_a_probe() {
-        let known = |name: &str| PROBES.iter().any(|probe| probe.function() == name);
-        let missing: Vec<&str> = PROBES
-            .iter()
-            .map(|probe| probe.function())
-            .filter(|f| truth::find(f).is_none())
-            .collect();
-        assert!(missing.is_empty(), "no truth for {missing:?}");
-        let orphans: Vec<&str> = truth::names()
-            .chain(tolerance::names())
-            .filter(|name| !known(name))
-            .collect();
-        assert!(orphans.is_empty(), "oracles without a probe: {orphans:?}");
-    }
-
-    #[test]
-    fn oracles_read_all_inputs_and_give_all_outputs() {
-        for probe in PROBES {
-            let inputs = random::generate(probe, 1, 0, 1);
-            let input = inputs.items().next().unwrap();
-            let exact: Vec<f64> = input.iter().copied().map(f64::from).collect();
-            let mut args = Args::new(&exact);
-            let truth = truth::find(probe.function()).unwrap()(&mut args);
-            assert!(args.is_empty(), "{}: the truth leaves inputs unread", probe.id);
-            assert_eq!(
-                truth.len(),
-                probe.output_floats,
-                "{}: the truth's outputs",
-                probe.id
-            );
-            let Some(tolerance) = tolerance::find(probe.function()) else {
-                continue;
-            };
-            let bounded: Vec<Bounded> = input.iter().copied().map(Bounded::input).collect();
-            let mut args = Args::new(&bounded);
-            let bounds = (tolerance.bound)(&mut args);
-            assert!(
-                args.is_empty(),
-                "{}: the tolerance leaves inputs unread",
-                probe.id
-            );
-            assert_eq!(
-                bounds.len(),
-                probe.output_floats,
-                "{}: the tolerance's outputs",
-                probe.id
-            );
-        }
-    }
-
-    #[test]
-    fn the_oracles_agree_on_random_inputs() {
-        for probe in PROBES {
-            let inputs = random::generate(probe, 500, 0, 2);
-            for input in inputs.items() {
-                for (output, e) in expected(probe, input).unwrap().iter().enumerate() {
-                    let slack = 64.0 * f64::EPSILON * e.bound.value.abs() + f64::MIN_POSITIVE;
-                    let agree =
-                        !e.bound.is_decided() || (e.truth - e.bound.value).abs() <= e.bound.error + slack;
-                    assert!(agree, "{} output {output} at {input:?}: {e:?}", probe.id);
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn hardened_functions_are_decided_on_random_inputs() {
-        for probe in PROBES
-            .iter()
-            .filter(|probe| probe.form == bossage_shaders::Form::Hardened)
-            .filter(|probe| tolerance::find(probe.function()).is_some())
-        {
-            let inputs = random::generate(probe, 2000, 0, 3);
-            let (mut outputs, mut open) = (0, 0);
-            for input in inputs.items() {
-                for e in expected(probe, input).unwrap() {
-                    outputs += 1;
-                    open += usize::from(!e.bound.is_decided() || e.bound.forked);
-                }
-            }
-            assert!(
-                open * 100 <= outputs,
-                "{}: {open} of {outputs} undecided",
-                probe.id
-            );
-        }
-    }
-}
+mod tests;

@@ -1,7 +1,7 @@
 //! Reports of a made-up run: formats, links, and nothing silently empty.
 
 use super::{CaseResult, Report, html, json, junit};
-use crate::bounded::Bounded;
+use crate::bound::Bound;
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected, Worst};
 use crate::environment::{Adapter, Environment};
@@ -15,7 +15,7 @@ fn worst(got: f32) -> Option<Worst> {
         &[got],
         &[Expected {
             truth: 1.0,
-            bound: Bounded::within(1.0, 0.1),
+            bound: Bound::between(0.9, 1.1),
         }],
     );
     comparison.worst

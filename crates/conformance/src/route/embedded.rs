@@ -7,6 +7,6 @@ use bossage_translate::Shader;
 use super::{Prepared, wgsl};
 
 /// The evaluator reads the text that route `wgsl` hands to wgpu.
-pub(super) fn prepare(shader: &Shader, assembled: &AssembledShader) -> Prepared {
+pub(super) fn prepare(shader: Shader, assembled: &AssembledShader) -> Prepared {
     wgsl::prepare(shader, assembled)
 }

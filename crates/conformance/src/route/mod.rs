@@ -7,14 +7,18 @@ mod embedded;
 mod spirv;
 mod wgsl;
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
+use std::sync::{Arc, Mutex, PoisonError};
 
+use bossage_bounds::Program;
 use bossage_runner::{AdapterInfo, Code, Shader};
 use bossage_shaders::AssembledShader;
 use bossage_translate::{Manifest, Source};
 use serde::Serialize;
 
+use crate::case::with_causes;
 use crate::error::Error;
 
 /// A way from an assembled shader to results.
@@ -61,9 +65,9 @@ impl Route {
         let shader = bossage_translate::Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl.clone()))
             .map_err(|diagnostic| diagnostic.to_string())?;
         match self {
-            Self::Wgsl => Ok(wgsl::prepare(&shader, assembled)),
-            Self::Spirv => spirv::prepare(&shader),
-            Self::Embedded => Ok(embedded::prepare(&shader, assembled)),
+            Self::Wgsl => Ok(wgsl::prepare(shader, assembled)),
+            Self::Spirv => spirv::prepare(shader),
+            Self::Embedded => Ok(embedded::prepare(shader, assembled)),
         }
     }
 }
@@ -86,12 +90,15 @@ impl FromStr for Route {
     }
 }
 
-/// A module as a route hands it to the driver.
-#[derive(Clone, Debug)]
+/// A module as a route hands it to the driver, and as `bounds` evaluates it.
+#[derive(Debug)]
 pub struct Prepared {
     /// What each entry point binds, reads and writes.
     pub manifest: Manifest,
     code: Vec<(String, Text)>,
+    /// The assembled WGSL, read and validated: every route starts here.
+    source: bossage_translate::Shader,
+    programs: Mutex<BTreeMap<String, Arc<Program>>>,
 }
 
 /// One entry point's code.
@@ -102,6 +109,45 @@ enum Text {
 }
 
 impl Prepared {
+    fn new(source: bossage_translate::Shader, manifest: Manifest, code: Vec<(String, Text)>) -> Self {
+        Self {
+            manifest,
+            code,
+            source,
+            programs: Mutex::default(),
+        }
+    }
+
+    /// The assembled WGSL: what is computed from it once may serve as long as this is the same.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        self.source.text()
+    }
+
+    /// The IR of the entry point of that name, compiled once for `bounds`: the very module that every route starts from.
+    ///
+    /// # Errors
+    /// When the module lacks it, or `bounds` leaves out something that it needs.
+    pub fn program(&self, entry: &str) -> Result<Arc<Program>, String> {
+        let mut programs = self.programs.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = programs.get(entry) {
+            return Ok(Arc::clone(found));
+        }
+        let (module, info) = self
+            .source
+            .module(entry)
+            .ok_or_else(|| format!("the module has no entry point `{entry}`"))?;
+        let program = Program::new(module, info, entry).map_err(|error| {
+            format!(
+                "no interval can be derived for `{entry}`: {}",
+                with_causes(&error)
+            )
+        })?;
+        let program = Arc::new(program);
+        programs.insert(entry.to_owned(), Arc::clone(&program));
+        Ok(program)
+    }
+
     /// The entry point of that name, ready to run.
     ///
     /// # Errors

@@ -4,16 +4,14 @@ use bossage_translate::{Contents, EmitOptions, Shader, Target, emit, manifest};
 
 use super::{Prepared, Text};
 
-pub(super) fn prepare(shader: &Shader) -> Result<Prepared, String> {
+pub(super) fn prepare(shader: Shader) -> Result<Prepared, String> {
     let options = EmitOptions::default();
-    let emitted = emit(shader, Target::Spirv, &options).map_err(|diagnostic| diagnostic.to_string())?;
+    let emitted = emit(&shader, Target::Spirv, &options).map_err(|diagnostic| diagnostic.to_string())?;
     let code = emitted.files.iter().map(|file| match &file.contents {
         Contents::Binary(bytes) => Ok((file.entry.clone(), Text::Spirv(bytes.clone()))),
         Contents::Text(_) => Err(format!("{} is text where SPIR-V is expected", file.file_name)),
     });
     let code = code.collect::<Result<_, _>>()?;
-    Ok(Prepared {
-        manifest: manifest(shader, &options, &[emitted]),
-        code,
-    })
+    let manifest = manifest(&shader, &options, &[emitted]);
+    Ok(Prepared::new(shader, manifest, code))
 }

@@ -239,7 +239,7 @@ impl BakeCase {
             let coded = bound * Bounded::exact(k) + Bounded::exact(o);
             Expected {
                 truth: (n * f64::from(k) + f64::from(o)).trunc(),
-                bound: coded.trunc(),
+                bound: coded.trunc().into(),
             }
         };
         let of = |i: usize| byte(truth[i], bounds.get(i).copied().unwrap_or(Bounded::OPEN), [k, o]);

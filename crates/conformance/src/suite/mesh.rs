@@ -378,7 +378,10 @@ impl MeshCase {
                 .to_array()
                 .into_iter()
                 .zip(bounds)
-                .map(|(truth, &bound)| Expected { truth, bound });
+                .map(|(truth, &bound)| Expected {
+                    truth,
+                    bound: bound.into(),
+                });
             let tangent = got.get(4 * v..4 * v + 4).unwrap_or_default();
             comparison.item(&[v as f32], tangent, &expected.collect::<Vec<_>>());
         }

@@ -24,7 +24,7 @@ use glam::{DVec2, DVec3, DVec4};
 use rayon::prelude::*;
 
 use crate::bench::Bench;
-use crate::bounded::Bounded;
+use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
@@ -237,11 +237,7 @@ impl CubeCase {
         let slack = self.slack();
         std::array::from_fn(|channel| Expected {
             truth: nominal[channel],
-            bound: Bounded::between(
-                nominal[channel],
-                range.0[channel] - slack,
-                range.1[channel] + slack,
-            ),
+            bound: Bound::between(range.0[channel] - slack, range.1[channel] + slack),
         })
     }
 

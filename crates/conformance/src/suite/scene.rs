@@ -143,7 +143,7 @@ fn judged(pixels: &[Pixel]) -> (Comparison, usize) {
             let expected: Vec<Expected> = (0..4)
                 .map(|i| Expected {
                     truth: truth[i],
-                    bound: pixel.bound.color[i],
+                    bound: pixel.bound.color[i].into(),
                 })
                 .collect();
             comparison.item(&pixel.place, &got, &expected);
@@ -158,11 +158,7 @@ fn kept(pixel: &Pixel) -> Expected {
     let bound = Bounded::select(pixel.bound.discarded, Bounded::exact(0.0), Bounded::exact(1.0));
     Expected {
         truth,
-        bound: Bounded {
-            value: truth,
-            error: if bound.forked { 1.0 } else { bound.error },
-            ..bound
-        },
+        bound: bound.into(),
     }
 }
 
@@ -192,7 +188,10 @@ fn agreement(planned: &[Pixel], full: &[Pixel]) -> (Comparison, usize) {
             comparison.item(
                 &planned.place,
                 &[f32::from(u8::from(same))],
-                &[Expected { truth: 1.0, bound }],
+                &[Expected {
+                    truth: 1.0,
+                    bound: bound.into(),
+                }],
             );
             continue;
         };
@@ -201,7 +200,7 @@ fn agreement(planned: &[Pixel], full: &[Pixel]) -> (Comparison, usize) {
             let bound = Bounded::within(f64::from(other[i]), a.error + b.error).marked(&[a, b]);
             Expected {
                 truth: f64::from(other[i]),
-                bound,
+                bound: bound.into(),
             }
         };
         comparison.item(&planned.place, &got, &(0..4).map(expected).collect::<Vec<_>>());

@@ -6,7 +6,6 @@
 use super::{ONE, SMALLEST_NORMAL, ZERO};
 use crate::bounded::vector::{Vec3, add, cross, dot, length, multiply, normalize, scale, subtract};
 use crate::bounded::{Bounded, Decision};
-use crate::oracle::{Args, truth};
 
 /// Both results of a branch, joined where it can go either way; the side that is never taken is not evaluated.
 pub(crate) fn branch<const N: usize>(
@@ -22,22 +21,6 @@ pub(crate) fn branch<const N: usize>(
             std::array::from_fn(|i| Bounded::select(condition, yes[i], no[i]))
         }
     }
-}
-
-/// Integer functions: the truth itself, without error.
-pub(super) fn integers(args: &mut Args<'_, Bounded>, function: &str) -> Vec<Bounded> {
-    let values: Vec<f64> = args.rest().iter().map(|x| x.value).collect();
-    let exact = truth::find(function)
-        .map(|truth| truth(&mut Args::new(&values)))
-        .unwrap_or_default();
-    exact
-        .into_iter()
-        .map(|value| Bounded::within(value, 0.0))
-        .collect()
-}
-
-pub(super) fn each3(a: &mut Args<'_, Bounded>, f: fn(Bounded) -> Bounded) -> Vec<Bounded> {
-    a.array::<3>().map(f).to_vec()
 }
 
 pub(crate) fn largest_component(v: &Vec3) -> Bounded {
@@ -84,30 +67,6 @@ pub(super) fn tangent_from_normal([x, y, z]: &Vec3) -> Vec3 {
     let side = Bounded::select(z.less(ZERO), -ONE, ONE);
     let a = -ONE / (side + *z);
     [ONE + side * *x * *x * a, side * (*x * *y * a), -side * *x]
-}
-
-pub(super) fn column_scales(m: &[Vec3; 3]) -> Vec3 {
-    m.each_ref()
-        .map(|column| largest_component(column).max(SMALLEST_NORMAL))
-}
-
-/// The columns divided by their largest components, and those.
-fn scaled_columns(m: &[Vec3; 3]) -> ([Vec3; 3], Vec3) {
-    let scales = column_scales(m);
-    (std::array::from_fn(|i| scaled_by(&m[i], scales[i])), scales)
-}
-
-pub(super) fn cofactor_direction(m: &[Vec3; 3], v: &Vec3) -> Vec3 {
-    let ([c0, c1, c2], scales) = scaled_columns(m);
-    let smallest = scales[0].min(scales[1]).min(scales[2]);
-    let weighted: Vec3 = std::array::from_fn(|i| v[i] * (smallest / scales[i]));
-    let (x, y, z) = (cross(&c1, &c2), cross(&c2, &c0), cross(&c0, &c1));
-    std::array::from_fn(|i| dot(&[x[i], y[i], z[i]], &weighted))
-}
-
-pub(super) fn mirror_sign(m: &[Vec3; 3]) -> Bounded {
-    let ([c0, c1, c2], _) = scaled_columns(m);
-    Bounded::select(dot(&cross(&c0, &c1), &c2).less(ZERO), -ONE, ONE)
 }
 
 pub(crate) fn lambert(normal: &Vec3, light_dir: &Vec3) -> Bounded {

@@ -17,8 +17,11 @@ pub(super) const ROWS: Rows = &[
         out2((DVec2::new(s, t) / major + 1.0) / 2.0)
     }),
     ("cube_point", |a| {
-        let face = a.scalar() as usize;
-        out3(point(face, (v2(a) + 1.0) / 2.0))
+        // Along the face's own axes: (p + 1) / 2 would lose what is small.
+        let (face, p) = (a.scalar() as usize, v2(a));
+        let at = |s: f64, t: f64| point(face, DVec2::new(s, t));
+        let middle = at(0.5, 0.5);
+        out3(middle + p.x * (at(1.0, 0.5) - middle) + p.y * (at(0.5, 1.0) - middle))
     }),
     ("cube_footprint", |a| {
         let (st, size) = (v2(a), a.scalar());

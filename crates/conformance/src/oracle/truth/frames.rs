@@ -1,7 +1,7 @@
 //! Tangent frames: made, combined, transformed.
 
 use bossage_reference::frame_from_uv::{self, Tangents};
-use bossage_reference::vector::{normalize, normalize_or_zero};
+use bossage_reference::vector::{normalize, normalize_or_zero, sign_not_zero};
 use bossage_reference::{frame_from_normal, frame_mikktspace, light_to_tangent, normal_transform};
 use glam::{DVec2, DVec3, DVec4};
 
@@ -85,8 +85,14 @@ pub(super) const ROWS: Rows = &[
         out3(normal_transform::published(m3(a), v3(a), DVec4::X).normal)
     }),
     ("bitangent_transform", |a| {
-        let frame = normal_transform::hardened(m3(a), v3(a), v4(a));
-        out3(normalize_or_zero(frame.bitangent))
+        let (linear, normal, tangent) = (m3(a), v3(a), v4(a));
+        let frame = normal_transform::hardened(linear, normal, tangent);
+        // Of unit vectors, so that it is known below which length there is no direction.
+        let along = normalize_or_zero(linear * tangent.truncate());
+        let across = normalize_or_zero(frame.normal).cross(along);
+        out3(normalize_or_zero(
+            across * tangent.w * sign_not_zero(linear.determinant()),
+        ))
     }),
     ("bitangent_transform_published", |a| {
         out3(normal_transform::published(m3(a), v3(a), v4(a)).bitangent)

@@ -75,17 +75,6 @@ pub(super) const ROWS: &[Defect] = &[
         cure: "nothing left for z: z = 0",
     },
     Defect {
-        name: "edge_of_the_circle",
-        published: "codec_two_channel_decode_published",
-        hardened: Some("codec_two_channel_decode"),
-        witness: &[1.0, 0.0],
-        cured_witness: None,
-        property: finite,
-        evidence: Evidence::Rules,
-        about: "at x² + y² = 1 the root is √0, which the language leaves open",
-        cure: "nothing left for z: z = 0, without a root",
-    },
-    Defect {
         name: "sign_of_zero",
         published: "codec_octahedral_encode_published",
         hardened: Some("codec_octahedral_encode"),
