@@ -137,6 +137,41 @@ const MUTANTS: &[Mutant] = &[
         filter: "frame_mikktspace/mesh",
     },
     Mutant {
+        what: "vertices displaced inward",
+        file: "techniques/displacement.wesl",
+        from: "return position + elevation(",
+        to: "return position - elevation(",
+        filter: "displacement/grid",
+    },
+    Mutant {
+        what: "the elevation of a silhouette off by ten per cent",
+        file: "techniques/displacement.wesl",
+        from: "return position + elevation(",
+        to: "return position + 1.1 * elevation(",
+        filter: "displacement/silhouette",
+    },
+    Mutant {
+        what: "the normal of a displaced vertex left as it was",
+        file: "entry/surface_vertex.wesl",
+        from: "out.normal = lighting_space_normal(displaced_normal(vertex.normal, vertex.tangent, vertex.uv));",
+        to: "out.normal = lighting_space_normal(vertex.normal);",
+        filter: "displacement/grid",
+    },
+    Mutant {
+        what: "the first of two passes off by one per cent",
+        file: "entry/surface_fragment.wesl",
+        from: "dot3_first_pass(normal_color, light_color) * light.radiance.rgb",
+        to: "1.01 * dot3_first_pass(normal_color, light_color) * light.radiance.rgb",
+        filter: "dot3_two_pass/passes",
+    },
+    Mutant {
+        what: "the second pass' colour squared",
+        file: "entry/surface_fragment.wesl",
+        from: "    @else\n    out.color = albedo;",
+        to: "    @else\n    out.color = albedo * albedo;",
+        filter: "dot3_two_pass/passes",
+    },
+    Mutant {
         what: "a published defect cured",
         file: "techniques/parallax_offset.wesl",
         from: "return uv + z * view_dir_ts.xy / view_dir_ts.z;",
@@ -174,8 +209,8 @@ const MUTANTS: &[Mutant] = &[
     Mutant {
         what: "a normal map dropped that the scene calls for",
         file: "entry/surface_fragment.wesl",
-        from: "    @if(normal_map)\n    let normal = normalise(combine_frame(",
-        to: "    @if(normal_map && !many_lights)\n    let normal = normalise(interpolated.normal);\n    @elif(normal_map)\n    let normal = normalise(combine_frame(",
+        from: "    @elif(unit_normal && normal_map)\n    let normal = normalise(combine_frame(",
+        to: "    @elif(unit_normal && normal_map && !many_lights)\n    let normal = normalise(interpolated.normal);\n    @elif(unit_normal && normal_map)\n    let normal = normalise(combine_frame(",
         filter: "scene/agreement",
     },
 ];
