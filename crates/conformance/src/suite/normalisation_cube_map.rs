@@ -7,7 +7,7 @@
 //!
 //! Directions are spread evenly over the cube's faces, of lengths 2⁻¹⁰ to 2¹⁰. Every component must lie in the range of the filtered
 //! surface around the place where the sample may lie, and the angle errors must be those of the f64 filter within
-//! [`ANGLE_SHARE`], for `face` at 8 bits those that are stated too.
+//! `ANGLE_SHARE`, for `face` at 8 bits those that are stated too.
 
 use std::sync::OnceLock;
 

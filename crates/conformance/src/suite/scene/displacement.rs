@@ -5,7 +5,7 @@
 //! - `silhouette`: the same grid seen along its plane. On the columns of pixels that lie on grid lines the highest and the lowest covered
 //!   pixel are those of the highest and the lowest displaced vertex; the flat plane, whatever its fragment stage shifts, covers none.
 //!
-//! What is allowed besides f32: a sampler keeps [`SUBTEXEL_BITS`] bits of its weights, a rasteriser keeps [`SUBPIXEL_BITS`] bits of a
+//! What is allowed besides f32: a sampler keeps `SUBTEXEL_BITS` bits of its weights, a rasteriser keeps `SUBPIXEL_BITS` bits of a
 //! vertex' place in the picture, so an interpolant may be taken that share of a pixel beside the vertex.
 
 use std::sync::Arc;

@@ -3,11 +3,11 @@
 //! What is judged, channel by channel of every covered pixel:
 //!
 //! - the colours that the three shaders write (one pass, first, second), taken from float targets, against the f64 surface, within
-//!   what filtering the maps may change ([`Allowance`]);
+//!   what filtering the maps may change (`Allowance`);
 //! - the bytes of one pass: the colour's nearest code;
 //! - the bytes of two: the first pass' code times the second's colour, as the reference's `second_pass` has it, with the liberties
 //!   of a blending unit: it may round its source first, and take either code around the product;
-//! - both pictures against each other: at most [`LARGEST_DIFFERENCE_CODES`].
+//! - both pictures against each other: at most `LARGEST_DIFFERENCE_CODES`.
 //!
 //! Maps are in floats or 16 bits, so that filtering them is not what is measured. The cost is counted from the code (operations and
 //! texture reads a pixel) and, on a machine whose clock says something, timed: 9 runs in turns.
