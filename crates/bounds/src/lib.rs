@@ -11,6 +11,8 @@
 //!
 //! A fifth, what it costs, comes with each of them: [`Limits::count`] counts operations and fetches by source span.
 //!
+//! On top of them: [`ranges`], what inputs may be; [`lint`], what can go wrong with them.
+//!
 //! ```
 //! use bossage_bounds::{Accept, F32, Limits, Program, run_probe};
 //!
@@ -77,6 +79,7 @@ mod exec;
 mod interval;
 mod kind;
 mod limits;
+pub mod lint;
 pub mod ranges;
 mod readback;
 mod run;

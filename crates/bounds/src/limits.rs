@@ -16,6 +16,8 @@ pub struct Limits {
     pub memory: u64,
     /// Whether to count operations and fetches for each source span.
     pub count: bool,
+    /// Whether to watch for operations that go wrong, which [`crate::lint`] asks for.
+    pub watch: bool,
 }
 
 impl Default for Limits {
@@ -27,6 +29,7 @@ impl Default for Limits {
             depth: 400,
             memory: 1 << 30,
             count: false,
+            watch: false,
         }
     }
 }

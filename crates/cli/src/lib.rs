@@ -24,6 +24,7 @@ pub mod error;
 mod inputs;
 mod machine;
 mod nearest;
+mod numeric;
 mod options;
 pub mod output;
 mod picture;

@@ -505,6 +505,8 @@ pub(crate) struct Code {
     pub(crate) entry: usize,
     pub(crate) privates: Vec<(Row, u32)>,
     pub(crate) spans: Vec<Span>,
+    /// Spans of `normalize`, which divides by a length.
+    pub(crate) normalises: std::collections::BTreeSet<u32>,
     pub(crate) uses_derivatives: bool,
     pub(crate) uses_barriers: bool,
     pub(crate) uses_subgroups: bool,

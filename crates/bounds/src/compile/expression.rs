@@ -15,8 +15,10 @@ impl<'m> Builder<'m> {
         if let Some(value) = frame.values.get(&handle) {
             return Ok(value.clone());
         }
-        let before = frame.pending.len();
+        let (before, span) = (frame.pending.len(), frame.span);
         let value = self.expression(frame, handle)?;
+        // What is computed around it stands where it stood.
+        frame.span = span;
         // Computed on demand: keep it only when that took no instructions, since those run under the current branch.
         if frame.pending.len() == before {
             frame.values.insert(handle, value.clone());

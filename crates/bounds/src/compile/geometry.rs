@@ -152,6 +152,7 @@ impl<'m> Builder<'m> {
 
     pub(crate) fn normalize(&mut self, frame: &mut Frame<'m>, args: &Args) -> Result<Val> {
         let w = args.width()?;
+        self.code.normalises.insert(frame.span);
         let length = self.norm(frame, w, &args.rows[0])?;
         let mut out = Vec::new();
         for &a in &args.rows[0] {

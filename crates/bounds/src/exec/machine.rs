@@ -35,6 +35,12 @@ pub struct Counters {
     pub out_of_bounds: u64,
     /// Operations and fetches by span number of the program, if counting was asked for.
     pub(crate) by_span: Vec<[u64; 2]>,
+    /// What went wrong, if the run was watched.
+    pub(crate) events: super::watch::Events,
+    /// By span number, the bits of an operand that must not be zero, or not below it, if the run was watched.
+    pub(crate) margins: std::collections::BTreeMap<u32, u64>,
+    /// Comparisons and steps whose result was open, if the run was watched.
+    pub(crate) undecided: u64,
 }
 
 impl Counters {
@@ -44,6 +50,9 @@ impl Counters {
         self.forks += other.forks;
         self.abandoned_loops += other.abandoned_loops;
         self.out_of_bounds += other.out_of_bounds;
+        self.undecided += other.undecided;
+        self.margins.extend(&other.margins);
+        super::watch::absorb(&mut self.events, &other.events);
         self.by_span
             .resize(self.by_span.len().max(other.by_span.len()), [0; 2]);
         for (to, from) in self.by_span.iter_mut().zip(&other.by_span) {
@@ -154,7 +163,7 @@ impl<'a, D: Domain> Machine<'a, D> {
     }
 }
 
-fn constant_cell<D: Domain>(constant: Constant) -> D::Cell {
+pub(crate) fn constant_cell<D: Domain>(constant: Constant) -> D::Cell {
     match constant.kind {
         Kind::Float(w) => D::float(w, f64::from_bits(constant.bits)),
         Kind::Int(t) => D::int(t, t.wrap(i128::from(constant.bits))),

@@ -22,3 +22,4 @@ pub(crate) mod ops;
 pub(crate) mod packing;
 pub(crate) mod places;
 pub(crate) mod quads;
+pub(crate) mod watch;

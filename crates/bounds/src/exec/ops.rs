@@ -89,6 +89,9 @@ impl<'a, D: Domain> Machine<'a, D> {
             Op::ImageQuery(query) => self.image_query(query, active),
             Op::Subgroup(subgroup) => self.subgroup(subgroup, active),
         }
+        if self.context.limits.watch {
+            self.observe(instr, active);
+        }
         if self.counters.operations + self.work > self.budget {
             return self.spend(0, instr.span);
         }

@@ -50,6 +50,12 @@ impl Flags {
         Self(self.0 | other.0)
     }
 
+    /// What both sets have.
+    #[inline(always)]
+    pub(crate) const fn intersection(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+
     /// True when any flag of `other` is set.
     #[inline(always)]
     pub const fn has(self, other: Self) -> bool {

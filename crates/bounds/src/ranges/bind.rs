@@ -114,7 +114,7 @@ impl Inputs {
 /// An exactly known scalar.
 fn exact<D: Domain>(kind: Kind, x: f64) -> Scalar<D> {
     match kind {
-        Kind::Float(w) => Scalar::Float(D::to_float(D::float(w, w.round(x)))),
+        Kind::Float(w) => Scalar::Float(D::to_float(D::float(w, x))),
         Kind::Int(t) => {
             let n = (x.round() as i128).clamp(t.min(), t.max());
             Scalar::Int(n, n)

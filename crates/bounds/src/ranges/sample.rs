@@ -141,6 +141,30 @@ impl Inputs {
         true
     }
 
+    /// A point half-way between two, up to rounding; `None` where no such point is in the ranges.
+    pub fn between_points(&self, a: &Point, b: &Point) -> Option<Point> {
+        let mut middle = a.clone();
+        for group in &self.groups {
+            for k in group.scalars.clone() {
+                let x = a.values[k] + (b.values[k] - a.values[k]) / 2.0;
+                middle.values[k] = match self.scalars[k].kind {
+                    Kind::Float(w) => w.round(x),
+                    Kind::Int(_) | Kind::Bool => a.values[k],
+                };
+            }
+            let values = &mut middle.values[group.scalars.clone()];
+            match group.values {
+                Values::Between(_) => {}
+                Values::Unit => {
+                    let unit = normalised(values);
+                    values.copy_from_slice(&unit);
+                }
+                Values::OneOf(_) => values.copy_from_slice(&a.values[group.scalars.clone()]),
+            }
+        }
+        self.admits(&middle).then_some(middle)
+    }
+
     /// Three neighbours of a fragment that make a quad of it: each a little way towards another random choice.
     pub fn quad(&self, point: &Point, seed: &mut Seed) -> [Point; 4] {
         let mut neighbour = |share: f64| {
@@ -199,7 +223,11 @@ impl Group {
 
 fn texels(texture: &TextureInput, seed: &mut Seed, style: Style) -> Vec<f64> {
     let kind = texture.format.kind();
-    let one: [f64; 4] = texture.channels.map(|bounds| number(kind, bounds, seed, style));
+    let mut one: [f64; 4] = texture.channels.map(|bounds| number(kind, bounds, seed, style));
+    if style == Style::Edge && seed.below(4) == 0 {
+        // One number in all channels: a half in each is the zero vector of a decoded normal.
+        one = texture.channels.map(|(lo, hi)| fitted(kind, one[0], lo, hi));
+    }
     // A flat texture, one of unrelated texels, and mixtures.
     let flat = seed.below(3);
     (0..texture.texel_count())

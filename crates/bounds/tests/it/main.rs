@@ -8,6 +8,7 @@ mod coverage;
 mod flow;
 mod generated;
 mod limits;
+mod lint;
 mod math;
 mod ranges;
 mod textures;

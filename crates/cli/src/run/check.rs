@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use bossage_translate::external::{self, Check, CheckState, State, Validator};
-use bossage_translate::{Diagnostic, EmitOptions, Lint, Shader, Target, lint};
+use bossage_translate::{Diagnostic, EmitOptions, Shader, Target, lint};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -16,6 +16,7 @@ use crate::args::{Global, check};
 use crate::console::{self, Console};
 use crate::error::{self, Error, Result};
 use crate::inputs::{self, Inputs, Module};
+use crate::numeric::{self, Finding};
 use crate::options;
 use crate::translation::{Translation, translate_all};
 
@@ -32,6 +33,10 @@ pub(crate) fn run(args: &check::Check, global: &Global, console: Console) -> Res
         validators: &validators,
         cache: cache_folder(args.cache.cache.as_deref()),
     };
+    let numeric = numeric::Settings {
+        ranges: args.ranges.clone(),
+        seconds: args.lint_time,
+    };
     let bar = console.bar(args.inputs.inputs.len() as u64, "checking");
     let mut reports = Vec::new();
     let mut wrong = Vec::new();
@@ -40,7 +45,7 @@ pub(crate) fn run(args: &check::Check, global: &Global, console: Console) -> Res
         let mut inputs = Inputs::default();
         let outcome = inputs
             .add(path, stage, &library)
-            .and_then(|()| checker.check(path, &inputs.modules));
+            .and_then(|()| checker.check(path, &inputs.modules, &numeric));
         let report = outcome.unwrap_or_else(|error| {
             let report = InputReport::wrong(path, error::chain(&error));
             wrong.push(error);
@@ -128,7 +133,7 @@ pub(crate) struct InputReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
     pub(crate) targets: BTreeMap<&'static str, TargetReport>,
-    pub(crate) lints: Vec<Lint>,
+    pub(crate) lints: Vec<Finding>,
 }
 
 /// One target of an input.
@@ -149,15 +154,18 @@ pub(crate) struct Checker<'a> {
 
 impl Checker<'_> {
     /// Checks the modules of one input.
-    fn check(&self, path: &Path, modules: &[Module]) -> Result<InputReport> {
+    fn check(&self, path: &Path, modules: &[Module], numeric: &numeric::Settings) -> Result<InputReport> {
         let shaders: Vec<Shader> = modules.par_iter().map(Module::parse).collect::<Result<_>>()?;
         let translations = translate_all(modules, &shaders, &Target::ALL, self.options);
         let mut report = self.check_translations(path, &translations);
-        report.lints = modules
+        let labelled: Vec<Shader> = modules
             .iter()
-            .filter_map(|module| module.parse_labelled().ok())
-            .flat_map(|shader| lint(&shader))
-            .collect();
+            .map(Module::parse_labelled)
+            .collect::<Result<_>>()?;
+        report.lints = labelled.iter().flat_map(lint).map(Finding::from).collect();
+        report
+            .lints
+            .extend(numeric::lint_input(path, &labelled, numeric)?);
         Ok(report)
     }
 
@@ -270,17 +278,19 @@ impl InputReport {
     }
 }
 
-fn lint_line(lint: &Lint) -> String {
+fn lint_line(found: &Finding) -> String {
+    let lint = &found.lint;
     let place = match (lint.line, lint.column) {
         (Some(line), Some(column)) => format!("{}:{line}:{column}", lint.file),
         _ => lint.file.clone(),
     };
-    format!(
+    let line = format!(
         "  {} {place}: {} [{}]\n",
         console::faint("lint"),
         lint.message,
         lint.rule
-    )
+    );
+    line + &indented(&found.snippet)
 }
 
 fn indented(text: &str) -> String {

@@ -21,6 +21,7 @@ use crate::args::{Global, demo::Demo};
 use crate::console::{self, Console};
 use crate::error::{Error, Result};
 use crate::inputs::{self, Inputs, Planned};
+use crate::numeric::Finding;
 use crate::output::Outputs;
 use crate::picture::{Linear, difference};
 use crate::run::check::{self, Checker, InputReport};
@@ -100,7 +101,7 @@ pub(crate) fn run(args: &Demo, global: &Global, console: Console) -> Result<Verd
         cache: check::cache_folder(None),
     };
     let mut check = checker.check_translations(&path, &done.translations);
-    check.lints = inputs.parse()?.iter().flat_map(lint).collect();
+    check.lints = inputs.parse()?.iter().flat_map(lint).map(Finding::from).collect();
     clock.lap("check", if check.ok { "nothing failed" } else { "FAILED" });
 
     let executed = execute(&inputs, &library, &mut clock)?;

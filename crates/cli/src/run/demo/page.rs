@@ -257,7 +257,7 @@ fn checks(story: &Story) -> Markup {
             div.scroll tabindex="0" role="region" aria-label="Checks by language" { (check_table(story)) }
             @if story.check.lints.is_empty() { p { "Lints: none." } } @else {
                 h3 { "Lints" }
-                ul { @for lint in &story.check.lints { li { code { (lint.rule) } " " (lint.message) } } }
+                ul { @for lint in &story.check.lints { li { code { (lint.lint.rule) } " " (lint.lint.message) } } }
             }
         }
     }
