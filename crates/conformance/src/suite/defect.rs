@@ -7,6 +7,7 @@
 //! published `dot3` clamps a NaN, and a machine that clamps NaN to 0 hides it. For those the witness is that the accuracy
 //! rules leave the published form's result open and decide the hardened form's.
 
+mod border;
 mod codecs;
 mod frames;
 mod property;
@@ -79,9 +80,9 @@ struct DefectCase {
     cured: bool,
 }
 
-/// Two cases a defect: that the published form has it, and that the hardened form has not.
+/// Two cases a defect, those of whole kernels among them: that the published form has it, and that the hardened form has not.
 pub fn cases() -> impl Iterator<Item = Box<dyn Case>> {
-    defects().flat_map(|defect| {
+    let single = defects().flat_map(|defect| {
         let shown = DefectCase::new(defect, defect.published, false);
         let cured = defect
             .hardened
@@ -90,7 +91,8 @@ pub fn cases() -> impl Iterator<Item = Box<dyn Case>> {
             .into_iter()
             .chain(cured)
             .map(|case| Box::new(case) as Box<dyn Case>)
-    })
+    });
+    single.chain(border::cases())
 }
 
 impl DefectCase {
