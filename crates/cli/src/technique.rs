@@ -1,6 +1,8 @@
-//! Relief techniques by name, as `render` takes them.
+//! Ways to draw a scene, as `render` takes them: a relief technique by name, or a setting of all materials.
 
-use bossage_scene::{Scene, TechniquePin};
+use std::path::Path;
+
+use bossage_scene::{Scene, Setting, TechniquePin};
 
 use crate::error::{Error, Result};
 use crate::nearest::suggestion;
@@ -25,6 +27,15 @@ pub(crate) fn pinned(scene: &Scene, name: &str) -> Result<Scene> {
         .pin_technique(technique)
         .map_err(|why| Error::Call(format!("{}: {why}", scene.path.display())))?;
     Ok(pinned)
+}
+
+/// The scene of a file in a way of drawing it: a technique, or KEY=VALUE for all materials.
+pub(crate) fn varied(path: &Path, way: &str) -> Result<Scene> {
+    if way.contains('=') {
+        let setting: Setting = way.parse().map_err(Error::Call)?;
+        return Ok(bossage_scene::load_with(path, &[setting])?);
+    }
+    pinned(&bossage_scene::load(path)?, way)
 }
 
 #[cfg(test)]

@@ -62,6 +62,7 @@ mod predict;
 mod relief;
 mod rules;
 pub mod schema;
+mod settings;
 mod suggest;
 mod table;
 mod textures;
@@ -73,7 +74,7 @@ pub use choose::{Candidate, Choice};
 pub use draw::{Draw, Pass, draws, draws_with};
 pub use error::{Error, Problem, Report};
 pub use facts::{AlbedoFacts, HeightFacts, MaterialFacts, NormalFacts};
-pub use load::{load, load_str};
+pub use load::{load, load_str, load_with};
 pub use model::{
     AlbedoSource, AlphaMode, Budget, Camera, Elevation, Environment, HeightSource, Light, LightKind,
     Material, NormalSource, Normaliser, Object, ReflectionPin, Scene, Shape, Tangents, TechniquePin,
@@ -83,5 +84,6 @@ pub use plan::{
     Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Permutation, Plan, Predicted, State, plan,
 };
 pub use predict::Error as PredictedError;
+pub use settings::Setting;
 pub use textures::{Level, Texels, Texture, TextureShape};
 pub use views::Footprint;

@@ -14,6 +14,7 @@ use crate::fields::{ANY, Bound, NOT_NEGATIVE, POSITIVE, Sink, Table, Value};
 use crate::files::Files;
 use crate::model::{Budget, Camera, Light, LightKind, Scene};
 use crate::schema;
+use crate::settings::Setting;
 use crate::{load_environment, load_material, load_object, rules};
 
 const FOV: Bound = Bound {
@@ -26,6 +27,14 @@ const FOV: Bound = Bound {
 /// # Errors
 /// When the file cannot be read, or anything in it or in a file it names is wrong; all problems are in the error.
 pub fn load(path: &Path) -> Result<Scene, Error> {
+    load_with(path, &[])
+}
+
+/// Reads a scene with some keys of all its materials set to other values than the file's.
+///
+/// # Errors
+/// As [`load`]; what is wrong with a setting is reported like a mistake in the file.
+pub fn load_with(path: &Path, settings: &[Setting]) -> Result<Scene, Error> {
     let read = |source| Error::Read {
         path: path.to_owned(),
         source,
@@ -38,7 +47,7 @@ pub fn load(path: &Path) -> Result<Scene, Error> {
         });
     }
     let text = std::fs::read_to_string(path).map_err(read)?;
-    load_str(path, &text)
+    load_text(path, &text, settings)
 }
 
 /// Reads a scene from its text; `path` names it in messages, and its folder is where files are looked for.
@@ -46,8 +55,14 @@ pub fn load(path: &Path) -> Result<Scene, Error> {
 /// # Errors
 /// As [`load`], but for reading the scene file.
 pub fn load_str(path: impl AsRef<Path>, text: &str) -> Result<Scene, Error> {
-    let path = path.as_ref();
-    let (document, syntax) = DeTable::parse_recoverable(text);
+    load_text(path.as_ref(), text, &[])
+}
+
+fn load_text(path: &Path, text: &str, settings: &[Setting]) -> Result<Scene, Error> {
+    let (mut document, syntax) = DeTable::parse_recoverable(text);
+    for setting in settings {
+        setting.apply(document.get_mut());
+    }
     let sink = Sink::new(text);
     for error in &syntax {
         let span = error.span().unwrap_or(0..0);

@@ -6,7 +6,8 @@ use std::str::FromStr;
 pub(crate) const EXAMPLE: &str = "\
 Examples:
   bossage render examples/brick_wall.toml -o wall.png --size 1280x720
-  bossage render examples/brick_wall.toml -o limits.png --compare parallax_offset,parallax_offset_limited";
+  bossage render examples/brick_wall.toml -o limits.png --compare parallax_offset,parallax_offset_limited
+  bossage render examples/parallax_occlusion.toml -o occlusion.png --compare occlusion=40,occlusion=0";
 
 /// `bossage render`.
 #[derive(Debug, clap::Args)]
@@ -16,13 +17,13 @@ pub(crate) struct Render {
     /// The picture to write, as PNG
     #[arg(short, long, value_name = "PNG")]
     pub(crate) output: PathBuf,
-    /// Draw every material with this relief technique instead of the planned one
+    /// Draw with this relief technique instead of the planned one, or with KEY=VALUE in every material
     #[arg(long, value_name = "TECHNIQUE")]
     pub(crate) technique: Option<String>,
     /// Width and height in pixels [default: the scene's]
     #[arg(long, value_name = "WxH")]
     pub(crate) size: Option<Size>,
-    /// Draw two techniques side by side, and their difference, amplified
+    /// Draw two techniques, or two KEY=VALUE, side by side, and their difference, amplified
     #[arg(long, value_name = "A,B", conflicts_with = "technique")]
     pub(crate) compare: Option<Pair>,
     /// Draw on the first adapter whose name contains this
@@ -37,7 +38,7 @@ pub(crate) struct Size {
     pub(crate) height: u32,
 }
 
-/// Two techniques to compare.
+/// Two techniques or settings to compare.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Pair(pub(crate) [String; 2]);
 
@@ -47,7 +48,10 @@ impl FromStr for Pair {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         match text.split(',').collect::<Vec<_>>().as_slice() {
             [a, b] if !a.is_empty() && !b.is_empty() => Ok(Self([*a, *b].map(str::to_owned))),
-            _ => Err("name two techniques with a comma between, for example none,parallax_offset".to_owned()),
+            _ => Err(
+                "name two techniques or settings with a comma between, for example none,parallax_offset"
+                    .to_owned(),
+            ),
         }
     }
 }

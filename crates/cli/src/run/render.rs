@@ -1,4 +1,4 @@
-//! `bossage render`: a scene as a PNG, or two techniques side by side with their difference.
+//! `bossage render`: a scene as a PNG, or two ways of drawing it side by side with their difference.
 
 use bossage_runner::Machine;
 use bossage_scene::Scene;
@@ -15,11 +15,12 @@ use crate::{drawing, inputs, machine, technique};
 
 pub(crate) fn run(args: &Render, global: &Global, console: Console) -> Result<Verdict> {
     let (library, _) = inputs::library(global)?;
-    let mut scene = bossage_scene::load(&args.scene)?;
+    let mut variants = variants(args)?;
     if let Some(size) = args.size {
-        scene.camera.size = [size.width, size.height];
+        for scene in &mut variants {
+            scene.camera.size = [size.width, size.height];
+        }
     }
-    let variants = variants(&scene, args)?;
     check_writable(&args.output)?;
     let machine = machine::open(args.adapter.as_deref(), console)?;
     console.note(format_args!("{} on {}", args.scene.display(), machine.info()));
@@ -36,19 +37,18 @@ pub(crate) fn run(args: &Render, global: &Global, console: Console) -> Result<Ve
     Ok(Verdict::Fine)
 }
 
-/// The scenes to draw: as planned, with one technique, or with each of two.
-fn variants(scene: &Scene, args: &Render) -> Result<Vec<Scene>> {
-    let names: Vec<&String> = args
+/// The scenes to draw: as the file has it, in one other way, or in each of two.
+fn variants(args: &Render) -> Result<Vec<Scene>> {
+    let ways: Vec<&String> = args
         .technique
         .iter()
         .chain(args.compare.iter().flat_map(|pair| &pair.0))
         .collect();
-    if names.is_empty() {
-        return Ok(vec![scene.clone()]);
+    if ways.is_empty() {
+        return Ok(vec![bossage_scene::load(&args.scene)?]);
     }
-    names
-        .into_iter()
-        .map(|name| technique::pinned(scene, name))
+    ways.into_iter()
+        .map(|way| technique::varied(&args.scene, way))
         .collect()
 }
 
@@ -65,7 +65,7 @@ fn compared(a: &Linear, b: &Linear, console: Console) -> Linear {
         mean,
     } = difference(a, b);
     console.note(format_args!(
-        "left, middle: the techniques; right: |difference| × {amplification:.4}; in linear light max {max:.6}, mean {mean:.6}"
+        "left, middle: the two; right: |difference| × {amplification:.4}; in linear light max {max:.6}, mean {mean:.6}"
     ));
     Linear::beside(&[a.clone(), b.clone(), picture])
 }

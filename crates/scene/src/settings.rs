@@ -1,0 +1,114 @@
+//! Settings: keys of materials with values in place of the file's, for drawing one scene in two ways.
+//!
+//! A setting is written `KEY=VALUE`, where VALUE is a word (quotes may be left out) or a number. It goes for every material of the
+//! scene, and is read and checked like a line of the file; what is wrong with it is reported at the material's head.
+
+use std::fmt;
+use std::str::FromStr;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A key of all materials, and its value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Setting {
+    key: String,
+    /// The value as a line of TOML, under the key `value`.
+    line: String,
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let value = self.line.trim_start_matches("value = ").trim_matches('"');
+        write!(out, "{}={value}", self.key)
+    }
+}
+
+impl FromStr for Setting {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let wrong = || {
+            format!("`{text}` is no setting; write KEY=VALUE, such as shading=dot3_two_pass or occlusion=0")
+        };
+        let (key, value) = text.split_once('=').ok_or_else(wrong)?;
+        let (key, value) = (key.trim(), value.trim());
+        let word = |text: &str| {
+            let plain = |c: char| c.is_ascii_alphanumeric() || c == '_';
+            text.starts_with(|c: char| c.is_ascii_alphabetic()) && text.chars().all(plain)
+        };
+        if !word(key) {
+            return Err(wrong());
+        }
+        let line = if word(value) {
+            format!("value = \"{value}\"")
+        } else {
+            format!("value = {value}")
+        };
+        let setting = Self {
+            key: key.to_owned(),
+            line,
+        };
+        setting.value().map(|_| setting.clone()).ok_or_else(wrong)
+    }
+}
+
+impl Setting {
+    /// The value; none where it is neither a word nor a number.
+    fn value(&self) -> Option<DeValue<'_>> {
+        let table = DeTable::parse(&self.line).ok()?.into_inner();
+        let (_, value) = table.into_iter().next().filter(|_| !self.line.contains('\n'))?;
+        match value.into_inner() {
+            value @ (DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_)) => Some(value),
+            DeValue::Boolean(_) | DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => None,
+        }
+    }
+
+    /// Sets the key in every material of a document.
+    pub(crate) fn apply<'d>(&'d self, document: &mut DeTable<'d>) {
+        let materials = document.iter_mut().find(|(key, _)| key.get_ref() == "materials");
+        let Some(DeValue::Array(list)) = materials.map(|(_, value)| value.get_mut()) else {
+            return;
+        };
+        for material in list.iter_mut() {
+            let head = material.span().start..material.span().start;
+            if let (DeValue::Table(table), Some(value)) = (material.get_mut(), self.value()) {
+                table.insert(
+                    Spanned::new(head.clone(), self.key.as_str().into()),
+                    Spanned::new(head, value),
+                );
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Setting;
+
+    #[test]
+    fn words_and_numbers_are_settings() {
+        for (text, shown) in [
+            ("shading=dot3_two_pass", "shading=dot3_two_pass"),
+            (" occlusion = 0.5 ", "occlusion=0.5"),
+            ("shininess=8", "shininess=8"),
+        ] {
+            assert_eq!(text.parse::<Setting>().unwrap().to_string(), shown);
+        }
+        for text in [
+            "",
+            "shading",
+            "=1",
+            "a.b=1",
+            "x=",
+            "x=[1, 2]",
+            "x={a = 1}",
+            "x=1\ny=2",
+            "x=true",
+            "x=\"\"\"",
+        ] {
+            let error = text.parse::<Setting>().unwrap_err();
+            assert!(error.contains("KEY=VALUE"), "{text}: {error}");
+        }
+    }
+}
