@@ -451,7 +451,7 @@ const CASES: &[Case] = &[
     ),
 ];
 
-fn folder() -> Folder {
+pub(crate) fn folder() -> Folder {
     let folder = Folder::new();
     folder.color("color.png", |x, y| {
         [x as u8 * 30, y as u8 * 30, 9, if x == y { 0 } else { 255 }]

@@ -5,3 +5,5 @@ mod decisions;
 mod draws;
 mod examples;
 mod fixture;
+mod refused;
+mod shading;
