@@ -20,7 +20,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 use super::rig::{Rig, job, render};
 use super::truth::uniform;
 use crate::bench::Bench;
-use crate::bounded::Bounded;
+use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
@@ -258,7 +258,7 @@ fn neighbours_apart(vertices: &[[DVec3; 2]], which: usize) -> f64 {
 fn within(truth: f64, allowed: f64) -> Expected {
     Expected {
         truth,
-        bound: Bounded::within(truth, allowed),
+        bound: Bound::between(truth - allowed, truth + allowed),
     }
 }
 

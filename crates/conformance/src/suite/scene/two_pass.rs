@@ -28,7 +28,7 @@ use glam::{DVec2, DVec3, DVec4};
 use super::rig::{Rig, job, render};
 use super::truth::{Maps, material, view};
 use crate::bench::Bench;
-use crate::bounded::Bounded;
+use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
@@ -301,7 +301,7 @@ fn between(truth: f64, low: f64, high: f64) -> Expected {
     Expected {
         truth,
         // Around the middle: a bound is as wide on both sides of its value.
-        bound: Bounded::between(0.5 * (low + high), low, high),
+        bound: Bound::between(low, high),
     }
 }
 
