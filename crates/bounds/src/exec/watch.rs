@@ -87,6 +87,15 @@ impl<D: Domain> Machine<'_, D> {
                     self.cancels(instr.span, *dst, &[*a, *b], active);
                 }
             }
+            Op::Chain(chain) => {
+                let (rows, w) = ([chain.a, chain.b], chain.w);
+                self.each(instr.span, chain.dst, &rows, active, false, |x, r| {
+                    rule::binary(chain.op, w, x[0], x[1], r)
+                });
+                if matches!(chain.op, FloatBinary::Add | FloatBinary::Subtract) {
+                    self.cancels(instr.span, chain.dst, &rows, active);
+                }
+            }
             Op::FloatTernary { op, w, dst, a, b, c } => {
                 self.each(instr.span, *dst, &[*a, *b, *c], active, false, |x, r| {
                     rule::ternary(*op, *w, [x[0], x[1], x[2]], r)

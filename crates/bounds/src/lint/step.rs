@@ -60,6 +60,11 @@ impl<'p> Walk<'p> {
             Op::Copy { dst, src } => state.rows[*dst as usize] = self.value(state, *src),
             Op::FloatUnary { op, w, dst, a } => self.float_unary((*op, *w), (*dst, *a), span, state),
             Op::FloatBinary { op, w, dst, a, b } => self.float_binary((*op, *w), (*dst, *a, *b), span, state),
+            // As written: which order a compiler takes is not this shader's fault.
+            Op::Chain(chain) => {
+                let rows = (chain.dst, chain.a, chain.b);
+                self.float_binary((chain.op, chain.w), rows, span, state);
+            }
             Op::FloatTernary { op, w, dst, a, b, c } => {
                 self.float_ternary((*op, *w), *dst, [*a, *b, *c], span, state)
             }
