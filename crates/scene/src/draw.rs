@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bossage_assets::{EdgeMode, Mesh};
-use bossage_shaders::{Albedo, FeatureSet, Stage};
+use bossage_shaders::{Albedo, FeatureSet, Relief, Stage};
 use glam::{DMat4, DVec3, DVec4};
 
 use crate::camera::Matrices;
@@ -307,6 +307,7 @@ fn relief(prepared: &Prepared<'_>, features: &FeatureSet) -> Vec<f32> {
             let constant = prepared.facts.height.is_none_or(|height| height.is_constant());
             constant || features.relief.is_slope()
         }
+        Some(Relief::None) => true,
         Some(pinned) => pinned != features.relief,
     };
     match &prepared.material.height {

@@ -51,8 +51,30 @@ fn every_example_scene_conforms_as_planned_and_with_all_effects() {
         return;
     };
     assert!(report.is_ok(), "{}", listed(&report, Verdict::Fail));
-    assert_eq!(report.totals().skip, 0, "{}", listed(&report, Verdict::Skip));
+    // Surfaces without a bound say so, and are no others than these.
+    let skipped: BTreeSet<String> = report
+        .cases
+        .iter()
+        .filter(|case| case.verdict == Verdict::Skip)
+        .filter_map(|case| Some(case.id.to_string().rsplit_once("scene=")?.1.to_owned()))
+        .collect();
+    let known = UNBOUNDED.map(str::to_owned);
+    assert_eq!(
+        skipped,
+        BTreeSet::from(known),
+        "{}",
+        listed(&report, Verdict::Skip)
+    );
 }
+
+/// Scenes whose surfaces no bound is known for yet: slopes, embossing, dot3 and reflections.
+const UNBOUNDED: [&str; 5] = [
+    "dot3_cube",
+    "dot3_cube_two_pass",
+    "emboss",
+    "environment_bump",
+    "parallax_occlusion",
+];
 
 /// A kind of case that kept quiet about a module would escape whoever asks which cases a change reaches.
 #[test]

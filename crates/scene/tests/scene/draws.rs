@@ -76,10 +76,18 @@ fn complete(draw: &Draw) {
 fn complete_for_the_plan_and_for_all_effects() {
     for name in [
         "brick_wall.toml",
+        "bump_and_parallax.toml",
         "bumped_cube.toml",
+        "displacement.toml",
+        "dot3_cube.toml",
+        "dot3_cube_two_pass.toml",
         "elevation.toml",
+        "emboss.toml",
+        "environment_bump.toml",
         "gallery.toml",
+        "height_to_normal.toml",
         "nothing.toml",
+        "parallax_occlusion.toml",
     ] {
         let scene = example(name);
         let plan = plan(&scene);

@@ -41,10 +41,18 @@ fn every_example_loads_and_plans() {
         names,
         [
             "brick_wall.toml",
+            "bump_and_parallax.toml",
             "bumped_cube.toml",
+            "displacement.toml",
+            "dot3_cube.toml",
+            "dot3_cube_two_pass.toml",
             "elevation.toml",
+            "emboss.toml",
+            "environment_bump.toml",
             "gallery.toml",
-            "nothing.toml"
+            "height_to_normal.toml",
+            "nothing.toml",
+            "parallax_occlusion.toml"
         ]
     );
     for name in names {
@@ -112,6 +120,85 @@ fn bumped_cube_is_the_third_article() {
     assert_eq!(kept(cube), ["lighting", "normal_map"]);
     assert_eq!(cube.features.space, bossage_shaders::LightingSpace::Object);
     assert_eq!(cube.features.lights, bossage_shaders::Lights::Directional);
+}
+
+/// Each article's picture calls for its technique, and for no other article's.
+#[test]
+fn the_articles_pictures_call_for_their_techniques() {
+    let of = |name: &str| {
+        let plan = plan(&example(name));
+        let of_material = |material: &MaterialPlan| (material.technique, material.shading, kept(material));
+        plan.materials.iter().map(of_material).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        of("bump_and_parallax.toml"),
+        [(
+            "parallax_offset_limited",
+            "blinn_phong",
+            vec![
+                "lighting",
+                "light_vector",
+                "specular",
+                "normal_map",
+                "albedo_map",
+                "relief"
+            ]
+        )]
+    );
+    assert_eq!(
+        of("parallax_occlusion.toml"),
+        [(
+            "parallax_slope_ao",
+            "wrap_lambert",
+            vec![
+                "lighting",
+                "normal_map",
+                "albedo_map",
+                "relief",
+                "ambient_occlusion"
+            ]
+        )]
+    );
+    let mut dot3 = vec![
+        "lighting",
+        "light_vector",
+        "normal_map",
+        "normalisation_cube",
+        "albedo_map",
+    ];
+    assert_eq!(of("dot3_cube.toml"), [("none", "dot3_single_pass", dot3.clone())]);
+    dot3.push("second_pass");
+    assert_eq!(of("dot3_cube_two_pass.toml"), [("none", "dot3_two_pass", dot3)]);
+    assert_eq!(
+        of("emboss.toml"),
+        [("none", "emboss", vec!["lighting", "light_vector", "emboss"])]
+    );
+    assert_eq!(
+        of("environment_bump.toml"),
+        [
+            (
+                "none",
+                "blinn_phong",
+                vec!["lighting", "specular", "environment", "normal_map"]
+            ),
+            ("none", "blinn_phong", vec!["lighting", "specular", "environment"])
+        ]
+    );
+    assert_eq!(
+        of("displacement.toml"),
+        [(
+            "displacement",
+            "blinn_phong",
+            vec!["lighting", "albedo_map", "displacement"]
+        )]
+    );
+    assert_eq!(
+        of("height_to_normal.toml"),
+        [
+            ("none", "blinn_phong", vec!["lighting", "albedo_map"]),
+            ("none", "blinn_phong", vec!["lighting", "normal_map"])
+        ]
+    );
 }
 
 #[test]

@@ -108,13 +108,11 @@ fn picture(
         vertex.shader("surface_vertex")?,
         fragment.shader("surface_fragment")?,
     );
-    for (name, texture) in textures
-        .iter()
-        .filter(|(name, _)| fragment.binding(name).is_some())
-    {
+    let bound = |name: &str| vertex.binding(name).is_some() || fragment.binding(name).is_some();
+    for (name, texture) in textures.iter().filter(|(name, _)| bound(name)) {
         resources.textures.insert(name.clone(), texture);
     }
-    if fragment.binding("surface_sampler").is_some() {
+    if bound("surface_sampler") {
         let settings = SamplerSettings {
             address: address(draw.edge),
             ..SamplerSettings::default()
