@@ -73,8 +73,10 @@ pub fn normal(tile: &Tile, slope: DVec2) -> DVec3 {
         along_u,
         along_v,
     } = *tile;
-    let outward = sign_not_zero(along_u.cross(along_v).dot(normal));
-    normalize_or_zero(outward * (along_u + slope.x * normal).cross(along_v + slope.y * normal))
+    let level = along_u.cross(along_v);
+    let outward = sign_not_zero(level.dot(normal));
+    // (P_u + s N) × (P_v + t N) without N × N = 0: where the slopes are 2⁵³ times the axes, f64 too would lose the axes in the sums.
+    normalize_or_zero(outward * (level + slope.x * normal.cross(along_v) + slope.y * along_u.cross(normal)))
 }
 
 /// The same in tangent space on a square tile of one unit: (−z_u, −z_v, 1), normalised.

@@ -40,7 +40,8 @@ impl FromStr for Setting {
         if !word(key) {
             return Err(wrong());
         }
-        let line = if word(value) {
+        // No key of a material is a truth value, so `true` is refused here and not taken for a word.
+        let line = if word(value) && !matches!(value, "true" | "false") {
             format!("value = \"{value}\"")
         } else {
             format!("value = {value}")
