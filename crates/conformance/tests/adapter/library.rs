@@ -51,11 +51,18 @@ fn every_example_scene_conforms_as_planned_and_with_all_effects() {
         return;
     };
     assert!(report.is_ok(), "{}", listed(&report, Verdict::Fail));
-    // Surfaces without a bound say so, and are no others than these.
-    let skipped: BTreeSet<String> = report
+    // What has no bound says so, and is no other than these.
+    let (displaced, skipped): (Vec<_>, Vec<_>) = report
         .cases
         .iter()
         .filter(|case| case.verdict == Verdict::Skip)
+        .partition(|case| case.id.to_string() == DISPLACED);
+    assert!(
+        !displaced.is_empty(),
+        "{DISPLACED} is not skipped any more: judge it"
+    );
+    let skipped: BTreeSet<String> = skipped
+        .into_iter()
         .filter_map(|case| Some(case.id.to_string().rsplit_once("scene=")?.1.to_owned()))
         .collect();
     let known = UNBOUNDED.map(str::to_owned);
@@ -66,6 +73,9 @@ fn every_example_scene_conforms_as_planned_and_with_all_effects() {
         listed(&report, Verdict::Skip)
     );
 }
+
+/// Two pictures whose vertices are rounded differently: how far that moves a pixel's inputs has no bound yet.
+const DISPLACED: &str = "scene/agreement:scene=displacement";
 
 /// Scenes whose surfaces no bound is known for yet: slopes, embossing, dot3 and reflections.
 const UNBOUNDED: [&str; 5] = [
