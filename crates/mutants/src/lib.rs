@@ -9,7 +9,7 @@
 //! What counts: mutants that still assemble and validate in every module that a case uses. Two places with the same mutated
 //! text count once. Generation, order and names depend on nothing but the sources.
 //!
-//! Mutants run in child processes ([`worker`], [`pool`]): a shader that never ends or takes the driver down is a fault that was
+//! Mutants run in child processes (`worker`, `pool`): a shader that never ends or takes the driver down is a fault that was
 //! caught, and ends neither the run nor the tool.
 
 mod args;

@@ -1,7 +1,7 @@
 //! Truth for every probe: the f64 reference, called with the probe's arguments.
 //!
 //! Nothing is computed here that `bossage-reference` does not define, but for the few functions of the library that are
-//! below the techniques: those are written out from their definition ([`below`]). One file a topic.
+//! below the techniques: those are written out from their definition (`below`). One file a topic.
 
 mod below;
 mod codecs;
