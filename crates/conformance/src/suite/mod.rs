@@ -1,5 +1,6 @@
 //! All cases, in the order of their names.
 
+pub mod accuracy;
 pub mod bake;
 pub mod defect;
 pub mod mesh;
@@ -27,6 +28,7 @@ pub struct Scope {
 #[must_use]
 pub fn cases(scope: &Scope) -> Vec<Box<dyn Case>> {
     let mut cases = Vec::new();
+    cases.extend(accuracy::cases(scope.full, scope.seed));
     cases.extend(probe::cases(scope.full, scope.seed));
     cases.extend(defect::cases());
     cases.extend(bake::cases());
