@@ -12,6 +12,10 @@ impl<'a, D: Domain> Machine<'a, D> {
     pub(crate) fn pack(&mut self, pack: &Pack, active: &[u32]) {
         let bits = pack.packing.bits();
         for &lane in active {
+            if D::UNCERTAIN && self.leaves_half(pack, lane) {
+                self.set(pack.word, lane, D::indeterminate(Kind::Int(IntType::U32)));
+                continue;
+            }
             let (mut lo, mut hi) = (0i128, 0i128);
             for (k, &row) in (0u32..).zip(&pack.parts) {
                 let (a, b) = code_bounds::<D>(pack.packing, self.get(row, lane));
@@ -20,6 +24,17 @@ impl<'a, D: Domain> Machine<'a, D> {
             }
             self.set(pack.word, lane, D::int_range(IntType::U32, lo, hi));
         }
+    }
+
+    /// Whether a part may lie beyond the finite numbers of `f16`: the language then leaves the whole word open, not that half of it.
+    fn leaves_half(&self, pack: &Pack, lane: u32) -> bool {
+        matches!(pack.packing, Packing::Half)
+            && pack.parts.iter().any(|&row| {
+                let (lo, hi) = D::float_bounds(self.get(row, lane));
+                // A NaN is no number of the format either.
+                let within = |x: f64| Width::F16.round(x).is_finite();
+                !(within(Width::F16.round_down(lo, 0.0)) && within(Width::F16.round_up(hi, 0.0)))
+            })
     }
 
     pub(crate) fn unpack(&mut self, pack: &Pack, active: &[u32]) {

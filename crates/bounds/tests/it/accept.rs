@@ -409,3 +409,14 @@ fn a_long_sum_contains_every_order() {
     // Six additions, each off by at most one unit of less than 2^29.
     assert!(x.contains(exact) && !x.contains(exact + 400.0) && !x.contains(exact - 400.0));
 }
+
+/// A number beyond `f16` leaves the whole packed word open, the half of its neighbour too.
+#[test]
+fn a_packed_half_out_of_range_opens_the_whole_word() {
+    let both = "unpack2x16float(pack2x16float(vec2f(a[0], a[1])))";
+    let x = one(&format!("{both}.y"), &[-5.643971e33, 3.0]);
+    assert!(x.contains(3.001953125), "{x:?}");
+    // Negative control: within the format the other half is what was packed, and nothing else.
+    let x = one(&format!("{both}.y"), &[60000.0, 3.0]);
+    assert_eq!((x.lo, x.hi), (3.0, 3.0));
+}

@@ -9,13 +9,13 @@ pub mod deviations;
 pub mod functions;
 pub mod inputs;
 
-use bossage_bounds::{Accept, F64, Interval, Limits, Program, run_probe as evaluate};
+use bossage_bounds::{Accept, F64, Limits, Program, run_probe as evaluate};
 use bossage_runner::run_probe;
 use bossage_shaders::AssembledShader;
 use bossage_translate::{Shader, Source};
 
 use crate::bench::Bench;
-use crate::bounded::Bounded;
+use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
@@ -172,17 +172,9 @@ fn expected(program: &Program, values: &[f32]) -> Result<Vec<Expected>, String> 
     Ok(pairs
         .map(|(truth, interval)| Expected {
             truth,
-            bound: bound(interval),
+            bound: Bound::from(interval),
         })
         .collect())
-}
-
-fn bound(interval: Interval) -> Bounded {
-    if !interval.flags.is_none() || !interval.lo.is_finite() || !interval.hi.is_finite() {
-        return Bounded::OPEN;
-    }
-    let middle = interval.lo + 0.5 * (interval.hi - interval.lo);
-    Bounded::between(middle, interval.lo, interval.hi)
 }
 
 impl Case for AccuracyCase {
@@ -242,7 +234,7 @@ mod tests {
             let expected = expected(&program(&shader(function)).unwrap(), &values).unwrap();
             for (item, e) in values.chunks_exact(2).zip(expected) {
                 let mut one = Comparison::default();
-                one.item(item, &[e.bound.value as f32], &[e]);
+                one.item(item, &[e.bound.low() as f32], &[e]);
                 let disagree = one.refusal == Some(crate::compare::Refusal::OraclesDisagree);
                 assert!(!disagree, "{} of {item:?}: {e:?}", function.name);
             }
