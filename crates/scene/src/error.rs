@@ -51,7 +51,16 @@ impl Error {
     }
 }
 
-/// One mistake in a scene file.
+/// Whose text a mistake is in.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Origin {
+    /// The scene file's.
+    File,
+    /// A setting's, as it was given.
+    Setting(String),
+}
+
+/// One mistake in a scene file, or in a setting that goes with it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Path of the field, as `materials[1].height.scale`; empty for the file as a whole.
@@ -60,7 +69,9 @@ pub struct Problem {
     pub message: String,
     /// What to do.
     pub hint: String,
-    /// Where, in bytes of the text.
+    /// Whose text it is in.
+    pub origin: Origin,
+    /// Where, in bytes of that text.
     pub span: Range<usize>,
     /// Line, from 1.
     pub line: usize,
@@ -75,7 +86,7 @@ pub struct Report {
     pub path: PathBuf,
     /// Its text.
     pub text: String,
-    /// At least one, in file order.
+    /// At least one, in file order, those of settings last.
     pub problems: Vec<Problem>,
 }
 
@@ -86,6 +97,7 @@ impl Report {
             field: String::new(),
             message: "the scene was refused and no reason was noted".to_owned(),
             hint: "this is a mistake of the loader: please report it with the scene".to_owned(),
+            origin: Origin::File,
             span: 0..0,
             line: 1,
             column: 1,
@@ -102,12 +114,16 @@ impl std::error::Error for Report {}
 
 impl fmt::Display for Report {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let file = SimpleFile::new(self.path.display().to_string(), self.text.as_str());
+        let path = self.path.display().to_string();
         let config = Config {
             chars: Chars::ascii(),
             ..Config::default()
         };
         for problem in &self.problems {
+            let file = match &problem.origin {
+                Origin::File => SimpleFile::new(path.as_str(), self.text.as_str()),
+                Origin::Setting(given) => SimpleFile::new("KEY=VALUE", given.as_str()),
+            };
             let text =
                 term::emit_into_string(&config, &file, &diagnostic(problem)).map_err(|_| fmt::Error)?;
             writeln!(out, "{}", text.trim_end())?;

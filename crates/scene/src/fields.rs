@@ -12,18 +12,19 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::error::{Problem, Report, line_column};
+use crate::sheet::Sheet;
 use crate::suggest;
 
 /// Where problems go.
 pub(crate) struct Sink<'t> {
-    text: &'t str,
+    sheet: &'t Sheet,
     problems: RefCell<Vec<Problem>>,
 }
 
 impl<'t> Sink<'t> {
-    pub(crate) fn new(text: &'t str) -> Self {
+    pub(crate) fn new(sheet: &'t Sheet) -> Self {
         Self {
-            text,
+            sheet,
             problems: RefCell::default(),
         }
     }
@@ -36,26 +37,31 @@ impl<'t> Sink<'t> {
         message: impl Into<String>,
         hint: impl Into<String>,
     ) {
-        let (line, column) = line_column(self.text, span.start);
+        let (origin, text, span) = self.sheet.locate(&span);
+        let (line, column) = line_column(text, span.start);
         let (message, hint, field) = (message.into(), hint.into(), field.to_owned());
         self.problems.borrow_mut().push(Problem {
             field,
             message,
             hint,
+            origin,
             span,
             line,
             column,
         });
     }
 
-    /// The report, in file order, if there is anything to report.
-    pub(crate) fn into_report(self, path: &Path) -> Option<Box<Report>> {
+    /// The report, in file order and settings last, if there is anything to report.
+    pub(crate) fn into_report(self, path: &Path, text: &str) -> Option<Box<Report>> {
         let mut problems = self.problems.into_inner();
-        problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
+        problems.sort_by(|a, b| {
+            let key = |problem: &Problem| (problem.span.start, problem.span.end);
+            a.origin.cmp(&b.origin).then_with(|| key(a).cmp(&key(b)))
+        });
         (!problems.is_empty()).then(|| {
             Box::new(Report {
                 path: path.to_owned(),
-                text: self.text.to_owned(),
+                text: text.to_owned(),
                 problems,
             })
         })
@@ -324,14 +330,17 @@ impl<'t> Table<'t> {
 
     /// The first line of the table: a caret under a whole table would mark pages.
     fn header_span(&self) -> Range<usize> {
-        let text = &self.sink.text[self.span.clone()];
+        let text = &self.sink.sheet.text()[self.span.clone()];
         let first_line = text.find('\n').unwrap_or(text.len());
         self.span.start..self.span.start + first_line
     }
 
     /// An optional field.
     pub(crate) fn get(&self, key: &'static str) -> Option<Value<'t>> {
-        self.asked.borrow_mut().push(key);
+        let mut asked = self.asked.borrow_mut();
+        if !asked.contains(&key) {
+            asked.push(key);
+        }
         let (_, value) = self.table.iter().find(|(name, _)| name.get_ref() == key)?;
         Some(Value {
             field: self.path_of(key),

@@ -63,6 +63,7 @@ mod relief;
 mod rules;
 pub mod schema;
 mod settings;
+mod sheet;
 mod suggest;
 mod table;
 mod textures;
@@ -72,7 +73,7 @@ mod views;
 pub use camera::Matrices;
 pub use choose::{Candidate, Choice};
 pub use draw::{Draw, Pass, draws, draws_with};
-pub use error::{Error, Problem, Report};
+pub use error::{Error, Origin, Problem, Report};
 pub use facts::{AlbedoFacts, HeightFacts, MaterialFacts, NormalFacts};
 pub use load::{load, load_str, load_with};
 pub use model::{

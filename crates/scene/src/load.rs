@@ -15,6 +15,7 @@ use crate::files::Files;
 use crate::model::{Budget, Camera, Light, LightKind, Scene};
 use crate::schema;
 use crate::settings::Setting;
+use crate::sheet::Sheet;
 use crate::{load_environment, load_material, load_object, rules};
 
 const FOV: Bound = Bound {
@@ -33,7 +34,7 @@ pub fn load(path: &Path) -> Result<Scene, Error> {
 /// Reads a scene with some keys of all its materials set to other values than the file's.
 ///
 /// # Errors
-/// As [`load`]; what is wrong with a setting is reported like a mistake in the file.
+/// As [`load`]; what is wrong with a setting is shown in the setting.
 pub fn load_with(path: &Path, settings: &[Setting]) -> Result<Scene, Error> {
     let read = |source| Error::Read {
         path: path.to_owned(),
@@ -60,10 +61,11 @@ pub fn load_str(path: impl AsRef<Path>, text: &str) -> Result<Scene, Error> {
 
 fn load_text(path: &Path, text: &str, settings: &[Setting]) -> Result<Scene, Error> {
     let (mut document, syntax) = DeTable::parse_recoverable(text);
-    for setting in settings {
-        setting.apply(document.get_mut());
+    let sheet = Sheet::new(text, settings);
+    for (setting, start) in settings.iter().zip(sheet.starts()) {
+        setting.apply(document.get_mut(), start);
     }
-    let sink = Sink::new(text);
+    let sink = Sink::new(&sheet);
     for error in &syntax {
         let span = error.span().unwrap_or(0..0);
         sink.note(
@@ -79,7 +81,7 @@ fn load_text(path: &Path, text: &str, settings: &[Setting]) -> Result<Scene, Err
     } else {
         None
     };
-    match (sink.into_report(path), scene) {
+    match (sink.into_report(path, text), scene) {
         (Some(report), _) => Err(Error::Invalid(report)),
         (None, Some(scene)) => Ok(scene),
         (None, None) => Err(Error::Invalid(Box::new(Report::unexplained(path, text)))),

@@ -1,9 +1,10 @@
 //! Settings: keys of materials with values in place of the file's, for drawing one scene in two ways.
 //!
 //! A setting is written `KEY=VALUE`, where VALUE is a word (quotes may be left out) or a number. It goes for every material of the
-//! scene, and is read and checked like a line of the file; what is wrong with it is reported at the material's head.
+//! scene, and is read and checked like a line of the file; what is wrong with it is shown in the setting.
 
 use std::fmt;
+use std::ops::Range;
 use std::str::FromStr;
 
 use toml::Spanned;
@@ -12,7 +13,11 @@ use toml::de::{DeTable, DeValue};
 /// A key of all materials, and its value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Setting {
+    /// As it was given.
+    given: String,
     key: String,
+    /// Where the value stands in what was given, in bytes.
+    place: Range<usize>,
     /// The value as a line of TOML, under the key `value`.
     line: String,
 }
@@ -46,8 +51,11 @@ impl FromStr for Setting {
         } else {
             format!("value = {value}")
         };
+        let place = text.rfind(value).ok_or_else(wrong)?;
         let setting = Self {
+            given: text.to_owned(),
             key: key.to_owned(),
+            place: place..place + value.len(),
             line,
         };
         setting.value().map(|_| setting.clone()).ok_or_else(wrong)
@@ -65,18 +73,25 @@ impl Setting {
         }
     }
 
-    /// Sets the key in every material of a document.
-    pub(crate) fn apply<'d>(&'d self, document: &mut DeTable<'d>) {
+    /// The setting as it was given.
+    pub(crate) fn as_given(&self) -> &str {
+        &self.given
+    }
+
+    /// Sets the key in every material of a document. Places are counted from `start`, where the setting's text begins.
+    pub(crate) fn apply<'d>(&'d self, document: &mut DeTable<'d>, start: usize) {
         let materials = document.iter_mut().find(|(key, _)| key.get_ref() == "materials");
         let Some(DeValue::Array(list)) = materials.map(|(_, value)| value.get_mut()) else {
             return;
         };
+        let key_start = start + self.given.find(&self.key).unwrap_or(0);
+        let key_place = key_start..key_start + self.key.len();
+        let value_place = start + self.place.start..start + self.place.end;
         for material in list.iter_mut() {
-            let head = material.span().start..material.span().start;
             if let (DeValue::Table(table), Some(value)) = (material.get_mut(), self.value()) {
                 table.insert(
-                    Spanned::new(head.clone(), self.key.as_str().into()),
-                    Spanned::new(head, value),
+                    Spanned::new(key_place.clone(), self.key.as_str().into()),
+                    Spanned::new(value_place.clone(), value),
                 );
             }
         }

@@ -1,7 +1,7 @@
 //! What a scene asks for and cannot have is named at its field: pins without their maps, alpha, codecs, cube maps, normalisers,
 //! settings.
 
-use bossage_scene::Setting;
+use bossage_scene::{Origin, Setting};
 
 use crate::bad_input::folder;
 use crate::fixture::{Folder, LAMP, SUN, one_plane};
@@ -353,14 +353,15 @@ fn settings_are_checked_like_the_file() {
         with("shininess=16").expect("a number").materials[0].shininess,
         16.0
     );
-    for (setting, field, says) in [
-        ("shading=dot3", "materials[0].shading", "not known"),
-        ("shinyness=16", "materials[0].shinyness", "unknown key"),
-        ("shininess=-1", "materials[0].shininess", "out of range"),
+    for (setting, field, says, at) in [
+        ("shading=dot3", "materials[0].shading", "not known", 8..12),
+        ("shinyness=16", "materials[0].shinyness", "unknown key", 0..9),
+        ("shininess = -1", "materials[0].shininess", "out of range", 12..14),
         (
             "reflection=environment_bump",
             "materials[0].reflection",
             "no `[environment]`",
+            11..27,
         ),
     ] {
         let error = with(setting).expect_err(setting);
@@ -369,5 +370,7 @@ fn settings_are_checked_like_the_file() {
             problem.field == field && problem.message.contains(says),
             "{error}"
         );
+        assert_eq!(problem.origin, Origin::Setting(setting.to_owned()), "{error}");
+        assert_eq!((problem.span.clone(), problem.line), (at, 1), "{error}");
     }
 }
