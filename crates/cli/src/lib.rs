@@ -20,6 +20,7 @@ mod console;
 mod cube_files;
 mod depfile;
 mod drawing;
+pub mod drivers;
 pub mod error;
 mod inputs;
 mod machine;

@@ -1,7 +1,7 @@
 //! Which adapters there are, and how one is chosen.
 //!
 //! The list is sorted by name, driver and driver version, so that it is the same in every run on a machine. Which
-//! drivers are seen is up to the Vulkan loader and its environment (`VK_ICD_FILENAMES`, `VK_DRIVER_FILES`).
+//! drivers are seen is up to the Vulkan loader and its environment (`VK_ADD_DRIVER_FILES`, `VK_DRIVER_FILES`).
 
 use std::fmt;
 
@@ -64,7 +64,7 @@ impl fmt::Display for AdapterInfo {
 /// Which adapter is wanted.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub enum AdapterSelector {
-    /// The first of the sorted list, real GPUs before software.
+    /// The first of the sorted list: real GPUs, then software, and SwiftShader last, which is the slowest and least exact.
     #[default]
     Any,
     /// The first whose name or driver holds this text, in any case. `lavapipe` also finds what calls itself `llvmpipe`.
@@ -106,7 +106,7 @@ pub(crate) fn select(selector: &AdapterSelector) -> Result<(AdapterInfo, wgpu::A
         .into_iter()
         .filter(|(info, _)| selector.matches(info))
         .collect();
-    taken.sort_by_key(|(info, _)| info.kind == DeviceKind::Cpu);
+    taken.sort_by_key(|(info, _)| rank(info));
     taken.into_iter().next().ok_or_else(|| match selector {
         AdapterSelector::Any => Error::NoAdapter,
         AdapterSelector::Named(wanted) => Error::NoSuchAdapter {
@@ -114,6 +114,15 @@ pub(crate) fn select(selector: &AdapterSelector) -> Result<(AdapterInfo, wgpu::A
             found: names,
         },
     })
+}
+
+/// The order in which adapters are taken where none is named.
+fn rank(info: &AdapterInfo) -> u8 {
+    match info.kind {
+        DeviceKind::Cpu if AdapterSelector::named("swiftshader").matches(info) => 2,
+        DeviceKind::Cpu => 1,
+        DeviceKind::IntegratedGpu | DeviceKind::DiscreteGpu | DeviceKind::VirtualGpu | DeviceKind::Other => 0,
+    }
 }
 
 fn found() -> Vec<(AdapterInfo, wgpu::Adapter)> {
@@ -210,6 +219,22 @@ mod tests {
             ..lavapipe()
         };
         assert!(!AdapterSelector::named("lavapipe").matches(&other));
+    }
+
+    #[test]
+    fn where_none_is_named_a_gpu_goes_first_and_swiftshader_last() {
+        let swiftshader = AdapterInfo {
+            name: "SwiftShader Device (Subzero)".into(),
+            driver: "SwiftShader driver".into(),
+            driver_info: String::new(),
+            ..lavapipe()
+        };
+        let gpu = AdapterInfo {
+            name: "Z GPU".into(),
+            kind: DeviceKind::DiscreteGpu,
+            ..lavapipe()
+        };
+        assert_eq!([&swiftshader, &lavapipe(), &gpu].map(rank), [2, 1, 0]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! `bossage doctor`: what this machine can do, and how to make it do more.
 
-use bossage_runner::{AdapterInfo, HOW_TO_GET_AN_ADAPTER};
+use bossage_runner::{AdapterInfo, AdapterSelector, HOW_TO_GET_AN_ADAPTER};
 use bossage_translate::external::{self, Validator};
 use serde::Serialize;
 
@@ -14,12 +14,14 @@ use crate::run::check;
 pub(crate) fn run(args: &Doctor) -> Result<Verdict> {
     let adapters = bossage_embedded::adapters();
     let has_driver = adapters.iter().any(|info| !machine::is_embedded(info));
+    let swiftshader = AdapterSelector::named("swiftshader");
     let report = Report {
         schema: 1,
         version: env!("CARGO_PKG_VERSION"),
         platform: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
         cores: std::thread::available_parallelism().map_or(1, usize::from),
         how_to_get_an_adapter: (!has_driver).then_some(HOW_TO_GET_AN_ADAPTER),
+        lacks_swiftshader: !adapters.iter().any(|info| swiftshader.matches(info)),
         adapters: adapters.iter().map(Adapter::from).collect(),
         cache: check::cache_folder(None).map(|folder| folder.display().to_string()),
         validators: external::detect(),
@@ -39,6 +41,9 @@ struct Report {
     platform: String,
     cores: usize,
     adapters: Vec<Adapter>,
+    /// Printed only: in JSON it shows by not being among the adapters.
+    #[serde(skip)]
+    lacks_swiftshader: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     how_to_get_an_adapter: Option<&'static str>,
     validators: Vec<Validator>,
@@ -89,6 +94,12 @@ impl Report {
                 adapter.backend,
                 adapter.kind,
                 adapter.driver_info
+            ));
+        }
+        if self.lacks_swiftshader {
+            text.push_str(&format!(
+                "{}  SwiftShader, a second driver: ./x setup --full fetches it\n",
+                console::faint("DISABLED")
             ));
         }
         if let Some(how) = self.how_to_get_an_adapter {

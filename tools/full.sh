@@ -1,0 +1,143 @@
+# shellcheck shell=bash
+# What `./x setup --full` gets besides system packages; sourced by `./x`.
+#
+# Packages are pinned in `tools/lock.tsv` (source, version, hash, licence), fetched by the ordinary client of their source, and
+# unpacked into the project's own cache, nothing else is touched: `${BOSSAGE_TOOLS:-${XDG_CACHE_HOME:-~/.cache}/bossage/tools}/TOOL`.
+# A folder there is whole or absent. Its `fetched.tsv` says what was wanted, what came, and the hash of that.
+#
+# To add a tool: a line in the lock, its name in `full_tools`, and three functions: `loss_without_TOOL` and `way_to_TOOL` (for the
+# DISABLED line), and `unpack_TOOL PACKAGE FOLDER`, which leaves in the folder just what is needed.
+
+full_tools="swiftshader"
+
+tools_folder() { echo "${BOSSAGE_TOOLS:-${XDG_CACHE_HOME:-$HOME/.cache}/bossage/tools}"; }
+
+# A column of a tool's line in the lock.
+locked() {
+    local column
+    case $2 in
+        source) column=2 ;;
+        package) column=3 ;;
+        version) column=4 ;;
+        architecture) column=5 ;;
+        sha256) column=6 ;;
+        licence) column=7 ;;
+    esac
+    awk -F '\t' -v tool="$1" -v column="$column" '$1 == tool { print $column }' tools/lock.tsv
+}
+
+# Whether the cache has what the lock wants, or what was taken in its place.
+is_fetched() {
+    local record
+    record=$(tools_folder)/$1/fetched.tsv
+    [ -f "$record" ] && [ "$(cut -f 2 "$record")" = "$(locked "$1" version)" ]
+}
+
+hash_of() { sha256sum "$1" | cut -d ' ' -f 1; }
+
+# Downloads a tool's package into an empty folder. Prints nothing; the folder then holds one file.
+download() {
+    case $(locked "$1" source) in
+        debian) download_from_debian "$@" ;;
+        *) say "setup: $1: tools/lock.tsv names no source that is known" && return 1 ;;
+    esac
+}
+
+# The pinned version, else the one that Debian offers in its place: its archive drops versions with each point release. Both are
+# checked against the archive's signature by apt itself.
+download_from_debian() {
+    local tool=$1 folder=$2 package version
+    have apt-get || return 1
+    package=$(locked "$tool" package)
+    version=$(locked "$tool" version)
+    [ "$(dpkg --print-architecture)" = "$(locked "$tool" architecture)" ] || version=
+    if ! apt-cache show "$package" >/dev/null 2>&1; then as_root apt-get update -qq >&2 || return 1; fi
+    apt_download "$folder" "$package${version:+=$version}" && return
+    as_root apt-get update -qq >&2 || true
+    apt_download "$folder" "$package${version:+=$version}" || apt_download "$folder" "$package"
+}
+
+apt_download() { (cd "$1" && apt-get download -qq -o APT::Sandbox::User=root "$2" >/dev/null 2>&1); }
+
+# The version of a downloaded package.
+version_of() {
+    case $(locked "$1" source) in
+        debian) dpkg-deb -f "$2" Version ;;
+    esac
+}
+
+# Fetches one tool; on failure the cache is as it was.
+fetch() {
+    local tool=$1 tools work file wanted got hash
+    tools=$(tools_folder)
+    mkdir -p "$tools" || return 1
+    work=$(mktemp -d "$tools/.$tool.XXXXXX") || return 1
+    mkdir "$work/package" "$work/tool"
+    if fetch_into "$tool" "$work"; then
+        rm -rf "${tools:?}/$tool"
+        mv "$work/tool" "$tools/$tool"
+        say "setup: $tool $got ($(locked "$tool" licence)) is in $tools/$tool"
+        rm -rf "$work"
+    else
+        rm -rf "$work"
+        return 1
+    fi
+}
+
+# Downloads, checks and unpacks into `$2/tool`; sets `got` for the caller's message.
+fetch_into() {
+    local tool=$1 work=$2
+    say "setup: fetching $tool ($(locked "$tool" package), $(locked "$tool" source))"
+    download "$tool" "$work/package" || return 1
+    file=$(find "$work/package" -type f)
+    [ -f "$file" ] || return 1
+    wanted=$(locked "$tool" version)
+    got=$(version_of "$tool" "$file")
+    hash=$(hash_of "$file")
+    if [ "$got" = "$wanted" ] && [ "$hash" != "$(locked "$tool" sha256)" ] \
+        && [ "$(dpkg --print-architecture 2>/dev/null)" = "$(locked "$tool" architecture)" ]; then
+        say "setup: $tool: the package's hash is $hash, not the one in tools/lock.tsv; it is not used"
+        return 1
+    fi
+    if [ "$got" != "$wanted" ]; then
+        say "setup: $tool: version $wanted is no longer offered; took $got, sha256 $hash"
+    fi
+    "unpack_$tool" "$file" "$work/tool" || return 1
+    printf '%s\t%s\t%s\t%s\n' "$tool" "$wanted" "$got" "$hash" >"$work/tool/fetched.tsv"
+}
+
+# Everything that is not there yet. Never fails: what could not be had is said, and the rest works without it.
+setup_full() {
+    local tool
+    for tool in $full_tools; do
+        if is_fetched "$tool" || fetch "$tool"; then continue; fi
+        if [ -d "$(tools_folder)/$tool" ]; then
+            say "setup: $tool: the wanted version could not be had; what is there stays in use"
+            continue
+        fi
+        say "setup: DISABLED $("loss_without_$tool") ($tool is missing; $("way_to_$tool"))"
+    done
+}
+
+# --- SwiftShader: a second Vulkan driver on the CPU, which comes with Chromium --------------------------------------------
+
+loss_without_swiftshader() { echo "the second Vulkan driver: conform runs on the others alone"; }
+
+way_to_swiftshader() {
+    echo "on Debian ./x setup --full fetches it; elsewhere put libvk_swiftshader.so and vk_swiftshader_icd.json of a Chromium for your machine into $(tools_folder)/swiftshader"
+}
+
+unpack_swiftshader() {
+    local member
+    for member in usr/lib/chromium/libvk_swiftshader.so usr/lib/chromium/vk_swiftshader_icd.json usr/share/doc/chromium-common/copyright; do
+        dpkg-deb --fsys-tarfile "$1" | tar -xOf - "./$member" >"$2/${member##*/}" || return 1
+    done
+}
+
+# Shows the fetched driver to the Vulkan loader, unless whoever calls has chosen drivers. `bossage` does the same by itself.
+show_swiftshader() {
+    local manifest
+    manifest=$(tools_folder)/swiftshader/vk_swiftshader_icd.json
+    if [ -n "${VK_DRIVER_FILES+set}${VK_ICD_FILENAMES+set}${VK_ADD_DRIVER_FILES+set}" ]; then return; fi
+    if [ -f "$manifest" ]; then export VK_ADD_DRIVER_FILES="$manifest"; fi
+}
