@@ -39,6 +39,7 @@ pub mod suite;
 pub mod tolerance;
 pub mod ulp;
 mod verdict;
+pub mod width;
 
 pub use error::Error;
 pub use module::Module;

@@ -14,6 +14,8 @@ use crate::module::Module;
 use crate::oracle;
 use crate::route::Prepared;
 use crate::tolerance::undecided_limit;
+use crate::verdict::Verdict;
+use crate::width::{self, golden};
 
 /// Random items of one probe in an ordinary run.
 pub const ORDINARY: usize = 10_000;
@@ -172,7 +174,7 @@ impl ProbeCase {
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let module = bench.module(&Module::Probe(self.probe.id))?;
-        let (mut all, mut items) = (self.comparison(), 0);
+        let (mut all, mut items, mut wider) = (self.comparison(), 0, None);
         for index in 0..self.parts() {
             let part = if self.parts() == 1 {
                 self.only_part(&module)?
@@ -181,8 +183,29 @@ impl ProbeCase {
             };
             all.merge(self.compare(bench, &module, &part)?);
             items += part.inputs.len();
+            if index == 0 && self.has_reviewed_widths() {
+                wider = golden::wider(self.probe, &width::measure(self.probe, &part.expected));
+            }
         }
-        Ok(Outcome::of(items, all, self.undecided_limit()))
+        let outcome = Outcome::of(items, all, self.undecided_limit());
+        Ok(match (outcome.verdict, wider) {
+            (Verdict::Pass | Verdict::Warn, Some(reason)) => Outcome {
+                verdict: Verdict::Fail,
+                reason: Some(reason),
+                ..outcome
+            },
+            (Verdict::Pass | Verdict::Warn | Verdict::Fail | Verdict::Skip | Verdict::ExpectedFail, _) => {
+                outcome
+            }
+        })
+    }
+
+    /// The table of widths was made from the first part of the usual stream.
+    fn has_reviewed_widths(&self) -> bool {
+        match self.generator {
+            Generator::Random { count, seed } => count >= width::ITEMS && seed == random::SEED,
+            Generator::Control | Generator::Edge | Generator::Spaced { .. } => false,
+        }
     }
 
     /// Random inputs of hardened functions lie in the documented domain, where the rules must not leave anything open.
