@@ -12,13 +12,13 @@
 //!
 //! ```
 //! use bossage_assets::{EdgeMode, HeightField};
-//! use bossage_reference::relief_truth::{Ray, Status, first_hit};
+//! use bossage_reference::relief_ray::{Layer, Status};
+//! use bossage_reference::relief_truth::trace;
 //! use glam::{DVec2, DVec3};
 //!
 //! let field = HeightField::from_fn(8, 8, |_, _| 0.75);
 //! let view_ts = DVec3::new(0.6, 0.0, 0.8);
-//! let ray = Ray::through(DVec2::splat(0.5), view_ts, 0.04, -0.04).expect("the view looks down on the surface");
-//! let hit = first_hit(&field, EdgeMode::Wrap, &ray);
+//! let hit = trace(&field, EdgeMode::Wrap, DVec2::splat(0.5), view_ts, &Layer::below(0.04));
 //! assert_eq!(hit.status, Status::Hit);
 //! assert!((hit.t - 0.25).abs() < 1e-15);
 //! ```
@@ -29,6 +29,7 @@ pub mod codec_octahedral;
 pub mod codec_snorm;
 pub mod codec_two_channel;
 pub mod codec_unorm;
+pub mod cone_step;
 pub mod cube;
 pub mod displacement;
 pub mod dot3;
@@ -45,13 +46,23 @@ pub mod light_to_tangent;
 pub mod normal_mips;
 pub mod normal_transform;
 pub mod normalisation_cube_map;
+pub mod parallax_iterative;
+pub mod parallax_occlusion;
 pub mod parallax_offset;
 pub mod parallax_offset_limited;
 pub mod parallax_slope_ao;
 pub mod parallax_slope_ao_directed;
+pub mod pixel_depth;
+pub mod relaxed_cone_step;
+pub mod relief;
+pub mod relief_grazing;
+pub mod relief_ray;
 pub mod relief_truth;
+pub mod self_shadow;
+pub mod soft_shadow;
 pub mod sphere;
 pub mod srgb;
+pub mod steep_parallax;
 pub mod surface;
 pub mod texture;
 pub mod vector;

@@ -9,7 +9,8 @@ use bossage_reference::cube::Seams;
 use bossage_reference::frame_from_uv::{Tangents, orthogonalise};
 use bossage_reference::normalisation_cube_map::{Depth, Map};
 use bossage_reference::parallax_slope_ao::{OCCLUSION_SCALE, OFFSET_SCALE, delta_published, published};
-use bossage_reference::relief_truth::{Ray, first_hit};
+use bossage_reference::relief_ray::Ray;
+use bossage_reference::relief_truth::first_hit;
 use bossage_reference::sphere::angle_deg;
 use bossage_reference::{
     displacement, light_to_tangent, normal_mips, normal_transform, parallax_offset, parallax_offset_limited,

@@ -11,9 +11,9 @@
 //! roughly right in pixels.
 
 use bossage_assets::{EdgeMode, NormalMap};
-use bossage_reference::relief_truth::{self, Ray, Status};
+use bossage_reference::relief_ray::{Ray, Status};
 use bossage_reference::{
-    parallax_offset, parallax_offset_limited, parallax_slope_ao, parallax_slope_ao_directed,
+    parallax_offset, parallax_offset_limited, parallax_slope_ao, parallax_slope_ao_directed, relief_truth,
 };
 use bossage_shaders::{Form, Relief};
 use glam::{DVec2, DVec3};
