@@ -32,6 +32,14 @@ pub enum Error {
     /// No adapter, or none that matches.
     #[error("no adapter to run on")]
     Adapter(#[source] bossage_runner::Error),
+    /// A route that was named lacks its compiler.
+    #[error("route `{route}` cannot run: {reason}")]
+    NoTool {
+        /// The route.
+        route: crate::route::Route,
+        /// What is missing, and how to get it.
+        reason: String,
+    },
     /// Routes and adapters that don't go together.
     #[error("{what}; it runs: {runs}")]
     NoPair {
@@ -63,6 +71,6 @@ impl Error {
     /// Whether the environment lacks what was demanded (exit code 3) rather than the call being wrong (2).
     #[must_use]
     pub fn is_missing_environment(&self) -> bool {
-        matches!(self, Self::Adapter(_))
+        matches!(self, Self::Adapter(_) | Self::NoTool { .. })
     }
 }

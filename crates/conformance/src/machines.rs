@@ -1,8 +1,8 @@
 //! Which machine runs which routes.
 //!
-//! Routes `wgsl` and `spirv` go to drivers, route `embedded` is what the adapter `embedded` does: a pair that makes no sense is
-//! not in the list. What a selection names must be in some pair, or the call is wrong; a route that nobody named and that has no
-//! adapter is left out, and the report says so.
+//! Route `embedded` is what the adapter `embedded` does, the others go to drivers: a pair that makes no sense is not in the list. What
+//! a selection names must be in some pair, or the call is wrong; a route that nobody named and that has no adapter, or whose compiler
+//! is missing, is left out, and the report says so.
 
 use bossage_embedded::{adapters, open};
 use bossage_runner::{AdapterInfo, AdapterSelector, HOW_TO_GET_AN_ADAPTER, Machine};
@@ -33,12 +33,16 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// The pairs that a selection takes of these adapters.
+    /// The pairs that a selection takes of these adapters. `missing` says why a route cannot run, whatever the adapter.
     ///
     /// # Errors
     /// [`Error::Adapter`] when an adapter that is named isn't there, or a route that is named needs one and there is none;
-    /// [`Error::NoPair`] when what is named doesn't go together.
-    pub fn of(selection: &Selection, all: &[AdapterInfo]) -> Result<Self, Error> {
+    /// [`Error::NoTool`] when a route that is named lacks its compiler; [`Error::NoPair`] when what is named doesn't go together.
+    pub fn of(
+        selection: &Selection,
+        all: &[AdapterInfo],
+        missing: impl Fn(Route) -> Option<String>,
+    ) -> Result<Self, Error> {
         let selectors: Vec<_> = selection
             .adapters
             .iter()
@@ -54,7 +58,7 @@ impl Pairs {
             }
         }
         let named = |info: &AdapterInfo| selectors.iter().any(|selector| selector.matches(info));
-        let routes = selection.routes();
+        let (routes, without_tool) = usable(selection, missing)?;
         let mut pairs = Vec::new();
         for info in all.iter().filter(|info| selectors.is_empty() || named(info)) {
             let own: Vec<Route> = routes
@@ -77,7 +81,8 @@ impl Pairs {
                 pairs.push((info.clone(), own));
             }
         }
-        let not_run = left_out(selection, &routes, &pairs, all)?;
+        let mut not_run = left_out(selection, &routes, &pairs, all)?;
+        not_run.extend(without_tool);
         Ok(Self {
             adapters: pairs,
             not_run,
@@ -109,6 +114,22 @@ impl Pairs {
             self.adapters.iter().map(machine).collect::<Result<_, _>>()?,
         ))
     }
+}
+
+/// The routes of a selection that have what they need, and those that lack a compiler; none of the latter may be named.
+fn usable(
+    selection: &Selection,
+    missing: impl Fn(Route) -> Option<String>,
+) -> Result<(Vec<Route>, Vec<NotRun>), Error> {
+    let (mut routes, mut without) = (Vec::new(), Vec::new());
+    for route in selection.routes() {
+        match missing(route) {
+            None => routes.push(route),
+            Some(reason) if selection.routes.is_empty() => without.push(NotRun { route, reason }),
+            Some(reason) => return Err(Error::NoTool { route, reason }),
+        }
+    }
+    Ok((routes, without))
 }
 
 /// The routes without an adapter; those that are named have to have one.
@@ -184,7 +205,7 @@ impl Selection {
     /// # Errors
     /// As [`Pairs::of`].
     pub fn pairs(&self) -> Result<Pairs, Error> {
-        Pairs::of(self, &adapters())
+        Pairs::of(self, &adapters(), Route::missing)
     }
 }
 
@@ -208,8 +229,18 @@ mod tests {
         }
     }
 
+    /// Every compiler is there.
+    fn nothing(_: Route) -> Option<String> {
+        None
+    }
+
+    /// DXC is not there.
+    fn dxc(route: Route) -> Option<String> {
+        (route == Route::Hlsl).then(|| "`dxc` was not found; get it".to_owned())
+    }
+
     fn pairs(routes: &[Route], adapters: &[&str], all: &[AdapterInfo]) -> Vec<String> {
-        let pairs = Pairs::of(&selection(routes, adapters), all).unwrap();
+        let pairs = Pairs::of(&selection(routes, adapters), all, nothing).unwrap();
         let of = |(info, routes): &(AdapterInfo, Vec<Route>)| {
             routes
                 .iter()
@@ -227,8 +258,12 @@ mod tests {
         let expected = [
             "wgsl on one",
             "spirv on one",
+            "hlsl on one",
+            "glsl on one",
             "wgsl on two",
             "spirv on two",
+            "hlsl on two",
+            "glsl on two",
             "embedded on embedded",
         ];
         assert_eq!(pairs(&[], &[], &all), expected);
@@ -238,7 +273,10 @@ mod tests {
             pairs(&[Route::Spirv], &[], &all),
             ["spirv on one", "spirv on two"]
         );
-        assert_eq!(pairs(&[], &["two"], &all), ["wgsl on two", "spirv on two"]);
+        assert_eq!(
+            pairs(&[], &["two"], &all),
+            ["wgsl on two", "spirv on two", "hlsl on two", "glsl on two"]
+        );
         assert_eq!(
             pairs(&[Route::Wgsl, Route::Embedded], &["one", "embedded"], &all),
             ["wgsl on one", "embedded on embedded"]
@@ -249,19 +287,40 @@ mod tests {
     fn without_a_driver_embedded_runs_and_the_rest_is_said_to_be_left_out() {
         let all = [bossage_embedded::info()];
         assert_eq!(pairs(&[], &[], &all), ["embedded on embedded"]);
-        let left_out = Pairs::of(&selection(&[], &[]), &all).unwrap().not_run;
+        let left_out = Pairs::of(&selection(&[], &[]), &all, nothing).unwrap().not_run;
         let routes: Vec<Route> = left_out.iter().map(|one| one.route).collect();
-        assert_eq!(routes, [Route::Wgsl, Route::Spirv]);
+        assert_eq!(routes, [Route::Wgsl, Route::Spirv, Route::Hlsl, Route::Glsl]);
         assert!(left_out[0].reason.contains("mesa-vulkan-drivers"));
         let with = [driver("one"), bossage_embedded::info()];
-        assert_eq!(Pairs::of(&selection(&[], &[]), &with).unwrap().not_run, []);
+        assert_eq!(
+            Pairs::of(&selection(&[], &[]), &with, nothing).unwrap().not_run,
+            []
+        );
+    }
+
+    #[test]
+    fn a_route_without_its_compiler_is_left_out_with_the_reason_and_refused_by_name() {
+        let all = [driver("one"), bossage_embedded::info()];
+        let pairs = Pairs::of(&selection(&[], &[]), &all, dxc).unwrap();
+        let [left_out] = &pairs.not_run[..] else {
+            panic!("{:?}", pairs.not_run)
+        };
+        assert_eq!(
+            (left_out.route, left_out.reason.as_str()),
+            (Route::Hlsl, "`dxc` was not found; get it")
+        );
+        assert_eq!(pairs.count(), 4);
+        let error = Pairs::of(&selection(&[Route::Hlsl], &[]), &all, dxc).unwrap_err();
+        assert!(error.is_missing_environment() && matches!(error, Error::NoTool { .. }));
+        assert!(error.to_string().contains("get it"), "{error}");
     }
 
     #[test]
     fn what_is_named_and_does_not_go_together_is_a_wrong_call() {
         let all = [driver("one"), bossage_embedded::info()];
-        let wrong =
-            |routes: &[Route], adapters: &[&str]| Pairs::of(&selection(routes, adapters), &all).unwrap_err();
+        let wrong = |routes: &[Route], adapters: &[&str]| {
+            Pairs::of(&selection(routes, adapters), &all, nothing).unwrap_err()
+        };
         let error = wrong(&[Route::Spirv], &["embedded"]);
         assert!(matches!(error, Error::NoPair { .. }) && !error.is_missing_environment());
         let text = error.to_string();
@@ -273,6 +332,7 @@ mod tests {
         let nobody = Pairs::of(
             &selection(&[Route::Wgsl, Route::Embedded], &["embedded"]),
             &[bossage_embedded::info()],
+            nothing,
         );
         assert!(matches!(nobody, Err(Error::NoPair { .. })));
         // One of two routes, one of two adapters.
@@ -289,8 +349,9 @@ mod tests {
     #[test]
     fn what_is_named_and_not_there_is_an_error_of_the_environment() {
         let all = [bossage_embedded::info()];
-        let wrong =
-            |routes: &[Route], adapters: &[&str]| Pairs::of(&selection(routes, adapters), &all).unwrap_err();
+        let wrong = |routes: &[Route], adapters: &[&str]| {
+            Pairs::of(&selection(routes, adapters), &all, nothing).unwrap_err()
+        };
         for error in [
             wrong(&[], &["lavapipe"]),
             wrong(&[Route::Wgsl], &[]),

@@ -82,24 +82,7 @@ fn answer(report: &Report, wrong: Vec<Error>, json: bool) -> Result<Verdict> {
 
 /// The user's cache folder for ours, unless another is asked for. None where the system has no such thing.
 pub(crate) fn cache_folder(asked: Option<&Path>) -> Option<PathBuf> {
-    let home = || std::env::home_dir().filter(|home| home.is_absolute());
-    let variable = |name: &str| {
-        std::env::var_os(name)
-            .map(PathBuf::from)
-            .filter(|path| path.is_absolute())
-    };
-    let users = || {
-        if cfg!(windows) {
-            variable("LOCALAPPDATA")
-        } else if cfg!(target_os = "macos") {
-            home().map(|home| home.join("Library/Caches"))
-        } else {
-            variable("XDG_CACHE_HOME").or_else(|| home().map(|home| home.join(".cache")))
-        }
-    };
-    asked
-        .map(Path::to_owned)
-        .or_else(|| users().map(|folder| folder.join("bossage")))
+    asked.map(Path::to_owned).or_else(external::cache_folder)
 }
 
 /// Which external tools take part, one line each.

@@ -1,10 +1,14 @@
 //! Routes: the ways from an assembled shader to results. One file a route.
 //!
 //! A route turns the library's WGSL into what it hands to the driver, so that what is judged is what users get; `embedded` needs
-//! none. Routes that execute the other languages join here as further variants.
+//! none. Routes of other languages hand the emitted text to a compiler of others and what that makes of it to the driver.
 
+mod compiled;
 mod embedded;
+mod glsl;
+mod hlsl;
 mod spirv;
+mod tools;
 mod wgsl;
 
 use std::collections::BTreeMap;
@@ -29,13 +33,17 @@ pub enum Route {
     Wgsl,
     /// The emitted SPIR-V file, passed through to Vulkan unseen.
     Spirv,
+    /// The emitted HLSL text, compiled by DXC: as DXIL, which its validator must accept, and as SPIR-V, which runs on Vulkan.
+    Hlsl,
+    /// The emitted GLSL text, compiled by glslang as SPIR-V, which runs on Vulkan.
+    Glsl,
     /// The text, evaluated by `bounds` in f32, without a driver.
     Embedded,
 }
 
 impl Route {
     /// All routes, in the order of the reports.
-    pub const ALL: [Self; 3] = [Self::Wgsl, Self::Spirv, Self::Embedded];
+    pub const ALL: [Self; 5] = [Self::Wgsl, Self::Spirv, Self::Hlsl, Self::Glsl, Self::Embedded];
 
     /// The name on the command line and in reports.
     #[must_use]
@@ -43,6 +51,8 @@ impl Route {
         match self {
             Self::Wgsl => "wgsl",
             Self::Spirv => "spirv",
+            Self::Hlsl => "hlsl",
+            Self::Glsl => "glsl",
             Self::Embedded => "embedded",
         }
     }
@@ -52,9 +62,25 @@ impl Route {
     pub fn runs_on(self, info: &AdapterInfo) -> bool {
         let is_embedded = info.name == bossage_embedded::NAME;
         match self {
-            Self::Wgsl | Self::Spirv => !is_embedded,
+            Self::Wgsl | Self::Spirv | Self::Hlsl | Self::Glsl => !is_embedded,
             Self::Embedded => is_embedded,
         }
+    }
+
+    /// The compiler of others that this route needs.
+    #[must_use]
+    pub const fn tool(self) -> Option<&'static str> {
+        match self {
+            Self::Wgsl | Self::Spirv | Self::Embedded => None,
+            Self::Hlsl => Some("dxc"),
+            Self::Glsl => Some("glslangValidator"),
+        }
+    }
+
+    /// Why this route cannot run on this computer, whatever the adapter: its compiler is missing. With the way to get it.
+    #[must_use]
+    pub fn missing(self) -> Option<String> {
+        self.tool().and_then(tools::missing)
     }
 
     /// Makes what this route hands to the driver.
@@ -67,6 +93,8 @@ impl Route {
         match self {
             Self::Wgsl => Ok(wgsl::prepare(shader, assembled)),
             Self::Spirv => spirv::prepare(shader),
+            Self::Hlsl => hlsl::prepare(shader),
+            Self::Glsl => glsl::prepare(shader),
             Self::Embedded => Ok(embedded::prepare(shader, assembled)),
         }
     }
@@ -182,7 +210,7 @@ mod tests {
         let message = "spriv".parse::<Route>().unwrap_err().to_string();
         assert_eq!(
             message,
-            "no route is called `spriv`; there are: wgsl, spirv, embedded"
+            "no route is called `spriv`; there are: wgsl, spirv, hlsl, glsl, embedded"
         );
     }
 }

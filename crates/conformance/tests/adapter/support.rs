@@ -11,25 +11,37 @@ static SKIPPED: AtomicUsize = AtomicUsize::new(0);
 
 /// The report, or `None` after saying that the test is skipped.
 pub(crate) fn report(test: &str, selection: &Selection, library: &Library) -> Option<Report> {
-    let required = std::env::var("BOSSAGE_REQUIRE").is_ok_and(|list| list.contains("lavapipe"));
+    let required = is_required("lavapipe");
     match run(selection, library, &mut Silent) {
         Ok(report) => {
-            let left_out = &report.environment.not_run;
-            assert!(
-                !required || left_out.is_empty(),
-                "lavapipe is required, but: {left_out:?}"
-            );
+            for left_out in &report.environment.not_run {
+                let needs = left_out.route.tool().unwrap_or("lavapipe");
+                assert!(!is_required(needs), "{needs} is required, but: {left_out:?}");
+                skip(test, &format!("route {}: {}", left_out.route, left_out.reason));
+            }
             Some(report)
         }
         Err(error) if error.is_missing_environment() => {
             assert!(!required, "lavapipe is required, but: {error}");
-            let count = SKIPPED.fetch_add(1, Ordering::Relaxed) + 1;
-            writeln!(std::io::stderr(), "SKIP {count}: {test}: {error}")
-                .expect("standard error can be written");
+            skip(test, &error.to_string());
             None
         }
         Err(error) => panic!("{test}: {error}"),
     }
+}
+
+/// Whether `BOSSAGE_REQUIRE` (`lavapipe,dxc`, say) lists a tool or driver, by the start of its name.
+fn is_required(needed: &str) -> bool {
+    let list = std::env::var("BOSSAGE_REQUIRE").unwrap_or_default();
+    list.split(',')
+        .map(str::trim)
+        .any(|item| !item.is_empty() && needed.starts_with(item))
+}
+
+/// Says that something is skipped, and counts it.
+fn skip(test: &str, reason: &str) {
+    let count = SKIPPED.fetch_add(1, Ordering::Relaxed) + 1;
+    writeln!(std::io::stderr(), "SKIP {count}: {test}: {reason}").expect("standard error can be written");
 }
 
 /// The cases with a verdict, each with its reason and worst output.

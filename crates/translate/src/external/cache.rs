@@ -12,6 +12,9 @@ use sha2::{Digest, Sha256};
 use crate::external::CheckState;
 use crate::manifest::hex;
 
+/// Hexadecimal digits of a checksum.
+const SUM_DIGITS: usize = 64;
+
 #[derive(Serialize, Deserialize)]
 struct Entry {
     key: String,
@@ -84,6 +87,26 @@ fn try_write(dir: &Path, key: &str, state: CheckState, message: &str) -> std::io
     Ok(())
 }
 
+/// What a tool made, if it is kept and whole.
+pub(super) fn read_object(dir: &Path, key: &str) -> Option<Vec<u8>> {
+    let bytes = std::fs::read(dir.join(key)).ok()?;
+    let (sum, object) = bytes.split_at_checked(SUM_DIGITS)?;
+    (sum == digest(&[key.as_bytes(), object]).as_bytes()).then(|| object.to_vec())
+}
+
+/// Keeps what a tool made, behind its checksum. What cannot be written is not kept.
+pub(super) fn write_object(dir: &Path, key: &str, object: &[u8]) {
+    let write = || -> std::io::Result<()> {
+        std::fs::create_dir_all(dir)?;
+        let mut file = tempfile::NamedTempFile::new_in(dir)?;
+        file.write_all(digest(&[key.as_bytes(), object]).as_bytes())?;
+        file.write_all(object)?;
+        file.persist(dir.join(key))?;
+        Ok(())
+    };
+    let _ = write();
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -126,5 +149,19 @@ mod tests {
         }
         write(dir.path(), &key, CheckState::Pass, "");
         assert_eq!(read(dir.path(), &key), Some((CheckState::Pass, String::new())));
+    }
+
+    #[test]
+    fn an_object_comes_back_whole_or_not_at_all() {
+        let dir = tempfile::tempdir().unwrap();
+        write_object(dir.path(), "key", b"object");
+        assert_eq!(read_object(dir.path(), "key").as_deref(), Some(&b"object"[..]));
+        std::fs::copy(dir.path().join("key"), dir.path().join("other")).unwrap();
+        assert_eq!(read_object(dir.path(), "other"), None);
+        let whole = std::fs::read(dir.path().join("key")).unwrap();
+        for broken in [&whole[..whole.len() - 1], &whole[..10], b""] {
+            std::fs::write(dir.path().join("key"), broken).unwrap();
+            assert_eq!(read_object(dir.path(), "key"), None);
+        }
     }
 }

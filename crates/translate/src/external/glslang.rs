@@ -1,11 +1,12 @@
 //! `glslangValidator` of Khronos, the reference compiler of GLSL.
 //!
-//! It parses and checks one stage by the rules of the version that the text states; it is not asked for SPIR-V, so the
-//! rules are those of OpenGL.
+//! As a check it parses one stage by the rules of the version that the text states; it is not asked for SPIR-V, so the rules are
+//! those of OpenGL. As a compiler it makes SPIR-V for Vulkan of the same text.
 
-use crate::external::Tool;
+use crate::emit::EmittedFile;
+use crate::external::{Input, Tool};
 use crate::options::EmitOptions;
-use crate::target::{Stage, Target};
+use crate::target::Target;
 
 pub(super) const TOOL: Tool = Tool {
     name: "glslangValidator",
@@ -13,6 +14,7 @@ pub(super) const TOOL: Tool = Tool {
     version_arguments: &["--version"],
     version,
     target: Target::Glsl,
+    input: Input::Pipe,
     arguments,
 };
 
@@ -23,12 +25,16 @@ fn version(said: &str) -> Option<String> {
         .map(|version| version.trim().to_owned())
 }
 
-fn arguments(stage: Stage, _: &EmitOptions) -> Result<Vec<String>, String> {
-    Ok(vec![
-        "--stdin".to_owned(),
-        "-S".to_owned(),
-        stage.glsl_extension().to_owned(),
-    ])
+fn arguments(file: &EmittedFile, _: &EmitOptions) -> Result<Vec<String>, String> {
+    let stage = file.stage.glsl_extension();
+    Ok(["--stdin", "-S", stage].map(str::to_owned).to_vec())
+}
+
+/// The arguments that make SPIR-V of a file that comes through a pipe; the path to write to follows.
+pub(super) fn spirv_arguments(file: &EmittedFile) -> Vec<String> {
+    let stage = file.stage.glsl_extension();
+    let all = ["--stdin", "-S", stage, "-V", "--target-env", "vulkan1.1", "-o"];
+    all.map(str::to_owned).to_vec()
 }
 
 #[cfg(test)]

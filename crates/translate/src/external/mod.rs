@@ -1,11 +1,14 @@
 //! Compilers of others that check what we emit.
 //!
 //! A tool is looked up once ([`detect`]), says its version, and is then run on emitted files ([`check`]). Results are kept
-//! in a directory, keyed by tool, version, arguments and content. A tool gets its input through a pipe, has
-//! [`TIME_LIMIT`] to answer, and may say [`OUTPUT_LIMIT`] bytes; the rest is dropped.
+//! in a directory, keyed by tool, version, arguments and content. A tool runs in a process of its own with [`LIMITS`] on its time,
+//! its memory and on what it may say: whatever it does is a verdict on the file and nothing else.
+//!
+//! Two of the tools are compilers as well: [`to_spirv`] takes what they make of HLSL and GLSL, so that the emitted text can be run.
 //!
 //! One file a tool: a tool is a constant of `Tool`. To add one, write its file and list it in `TOOLS`.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -13,21 +16,30 @@ use serde::{Deserialize, Serialize};
 
 use crate::emit::{Emitted, EmittedFile};
 use crate::options::EmitOptions;
-use crate::target::{Stage, Target};
+use crate::target::Target;
 
 mod cache;
+mod compile;
+mod dxc;
+mod folders;
 mod glslang;
+mod relocate;
 mod run;
 mod spirv_val;
 
-/// How long a tool may take for one file. Both tools answer within milliseconds; this ends a hang.
-pub const TIME_LIMIT: Duration = Duration::from_secs(20);
+pub use compile::{Compiled, to_spirv};
+pub use folders::{cache_folder, tool_folders};
+pub use run::{Limits, Outcome, run};
 
-/// How much of a tool's output is kept.
-pub const OUTPUT_LIMIT: usize = 16 * 1024;
+/// What a tool may take for one file. Every tool answers within milliseconds and a hundred megabytes: this ends a hang.
+pub const LIMITS: Limits = Limits {
+    time: Duration::from_secs(20),
+    memory_bytes: 2 << 30,
+    output_bytes: 16 * 1024,
+};
 
 /// Every tool that we know how to run.
-const TOOLS: [&Tool; 2] = [&spirv_val::TOOL, &glslang::TOOL];
+const TOOLS: [&Tool; 3] = [&spirv_val::TOOL, &glslang::TOOL, &dxc::TOOL];
 
 /// What is known about a tool.
 struct Tool {
@@ -41,8 +53,19 @@ struct Tool {
     version: fn(&str) -> Option<String>,
     /// The target it checks.
     target: Target,
-    /// The arguments for a file of this stage, given through a pipe; or why it cannot check it.
-    arguments: fn(Stage, &EmitOptions) -> Result<Vec<String>, String>,
+    /// How it gets the file.
+    input: Input,
+    /// The arguments for a file, but for its path; or why it cannot check it.
+    arguments: fn(&EmittedFile, &EmitOptions) -> Result<Vec<String>, String>,
+}
+
+/// How a tool gets a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Input {
+    /// Through a pipe.
+    Pipe,
+    /// By a path, which is the last argument.
+    Path,
 }
 
 /// A tool and whether it can be used.
@@ -95,12 +118,10 @@ pub enum CheckState {
     Skip,
 }
 
-/// Looks for every tool that we know how to run, on the `PATH`.
+/// Looks for every tool that we know how to run, in [`tool_folders`].
 #[must_use]
 pub fn detect() -> Vec<Validator> {
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
-    detect_in(&folders)
+    detect_in(&tool_folders())
 }
 
 /// Looks for every tool in these folders only, the first hit wins.
@@ -123,7 +144,7 @@ fn detect_tool(tool: &Tool, folders: &[PathBuf]) -> Validator {
         );
     };
     let arguments: Vec<String> = tool.version_arguments.iter().map(|&a| a.to_owned()).collect();
-    let said = match run::run(&path, &arguments, &[], TIME_LIMIT, OUTPUT_LIMIT) {
+    let said = match run(&path, &arguments, &[], &LIMITS) {
         Ok(outcome) => outcome.output,
         Err(problem) => return disabled(tool, Some(path), problem),
     };
@@ -200,7 +221,7 @@ fn verdict(
     let (Some(path), Some(version)) = (&validator.path, &validator.version) else {
         return skip(validator.reason.clone().unwrap_or_default());
     };
-    let arguments = match (tool.arguments)(file.stage, options) {
+    let arguments = match (tool.arguments)(file, options) {
         Ok(arguments) => arguments,
         Err(reason) => return skip(reason),
     };
@@ -209,7 +230,7 @@ fn verdict(
     if let Some(known) = cache.and_then(|dir| cache::read(dir, &key)) {
         return known;
     }
-    match run::run(path, &arguments, content, TIME_LIMIT, OUTPUT_LIMIT) {
+    match run_on(tool, path, arguments, content) {
         Ok(outcome) => {
             let state = if outcome.success {
                 CheckState::Pass
@@ -224,4 +245,24 @@ fn verdict(
         }
         Err(problem) => (CheckState::Fail, problem),
     }
+}
+
+/// Runs a tool on a content.
+fn run_on(tool: &Tool, path: &Path, mut arguments: Vec<String>, content: &[u8]) -> Result<Outcome, String> {
+    if tool.input == Input::Pipe {
+        return run(path, &arguments, content, &LIMITS);
+    }
+    let file = written(content)?;
+    arguments.push(file.path().to_string_lossy().into_owned());
+    run(path, &arguments, &[], &LIMITS)
+}
+
+/// A file with this content that goes when it is dropped.
+fn written(content: &[u8]) -> Result<tempfile::NamedTempFile, String> {
+    let make = || {
+        let mut file = tempfile::NamedTempFile::new()?;
+        file.write_all(content)?;
+        Ok(file)
+    };
+    make().map_err(|error: std::io::Error| format!("a file for the tool could not be written: {error}"))
 }

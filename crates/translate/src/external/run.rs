@@ -1,4 +1,8 @@
-//! Runs a program with a limit on its time and on what it may say.
+//! Runs a program of others with limits on its time, its memory and on what it may say.
+//!
+//! A program gets a process group of its own, and all of the group is ended when its time is over, so that what it started itself
+//! neither goes on nor keeps its pipes open. The limit on memory is on the address space and needs a POSIX shell; on other systems
+//! there is none.
 
 use std::io::{Read, Write};
 use std::path::Path;
@@ -6,33 +10,34 @@ use std::process::{Child, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How a program ended.
-#[derive(Debug)]
-pub(super) struct Outcome {
-    /// Whether it ended with exit code 0.
-    pub(super) success: bool,
-    /// Whether it was ended by a signal instead of by itself.
-    pub(super) crashed: bool,
-    /// The beginning of what it wrote to standard output, then to standard error.
-    pub(super) output: String,
+/// What a program may take.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// From its start to its end.
+    pub time: Duration,
+    /// Bytes that it may address.
+    pub memory_bytes: u64,
+    /// Bytes that are kept of what it says; the rest is read and dropped.
+    pub output_bytes: usize,
 }
 
-/// Runs a program on an input.
+/// How a program ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Outcome {
+    /// Whether it ended with exit code 0.
+    pub success: bool,
+    /// Whether it was ended by a signal instead of by itself.
+    pub crashed: bool,
+    /// The beginning of what it wrote to standard output, then to standard error.
+    pub output: String,
+}
+
+/// Runs a program on an input that it gets through a pipe.
 ///
-/// `Err` says why there is no outcome: it could not be started, or took too long and was ended.
-pub(super) fn run(
-    program: &Path,
-    arguments: &[String],
-    input: &[u8],
-    time_limit: Duration,
-    output_limit: usize,
-) -> Result<Outcome, String> {
-    let mut child = Command::new(program)
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
+/// # Errors
+/// Why there is no outcome: it could not be started, or took too long and was ended.
+pub fn run(program: &Path, arguments: &[String], input: &[u8], limits: &Limits) -> Result<Outcome, String> {
+    let mut child = start(program, arguments, limits)
         .map_err(|error| format!("`{}` could not be started: {error}", program.display()))?;
     let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
     thread::scope(|scope| {
@@ -40,14 +45,58 @@ pub(super) fn run(
             // A program that does not read its input closes the pipe; its verdict counts all the same.
             stdin.map(|mut pipe| pipe.write_all(input))
         });
-        let out = scope.spawn(move || stdout.map_or_else(String::new, |pipe| keep(pipe, output_limit)));
-        let err = scope.spawn(move || stderr.map_or_else(String::new, |pipe| keep(pipe, output_limit)));
-        let status = wait(&mut child, time_limit);
+        let out =
+            scope.spawn(move || stdout.map_or_else(String::new, |pipe| keep(pipe, limits.output_bytes)));
+        let err =
+            scope.spawn(move || stderr.map_or_else(String::new, |pipe| keep(pipe, limits.output_bytes)));
+        let status = wait(&mut child, limits.time);
         let mut output = out.join().unwrap_or_default();
         output.push_str(&err.join().unwrap_or_default());
         let status = status.map_err(|why| format!("`{}` {why}", program.display()))?;
         Ok(outcome(status, output))
     })
+}
+
+/// Starts it in a process group of its own, under a shell that sets the limits and then becomes the program.
+#[cfg(unix)]
+fn start(program: &Path, arguments: &[String], limits: &Limits) -> std::io::Result<Child> {
+    use std::os::unix::process::CommandExt;
+
+    // The shell would say in words of its own that there is no such program.
+    std::fs::metadata(program)?;
+    let kilobytes = limits.memory_bytes / 1024;
+    let script = format!("ulimit -c 0; ulimit -v {kilobytes} && exec \"$@\"");
+    piped(
+        Command::new("/bin/sh")
+            .args(["-c", &script, "sh"])
+            .arg(program)
+            .args(arguments)
+            .process_group(0),
+    )
+}
+
+#[cfg(not(unix))]
+fn start(program: &Path, arguments: &[String], _: &Limits) -> std::io::Result<Child> {
+    piped(Command::new(program).args(arguments))
+}
+
+fn piped(command: &mut Command) -> std::io::Result<Child> {
+    command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+}
+
+/// Ends a program and all that it started. Either fails only if it has just ended, which is as good.
+fn end(child: &mut Child) {
+    #[cfg(unix)]
+    let _ = Command::new("/bin/sh")
+        .args(["-c", "kill -KILL -- \"-$1\"", "sh", &child.id().to_string()])
+        .stderr(Stdio::null())
+        .status();
+    let _ = child.kill();
+    let _ = child.wait();
 }
 
 fn outcome(status: ExitStatus, mut output: String) -> Outcome {
@@ -88,9 +137,7 @@ fn wait(child: &mut Child, time_limit: Duration) -> Result<ExitStatus, String> {
             Ok(Some(status)) => return Ok(status),
             Ok(None) if start.elapsed() < time_limit => thread::sleep(pause),
             Ok(None) => {
-                // Either fails only if the program has just ended, which is as good.
-                let _ = child.kill();
-                let _ = child.wait();
+                end(child);
                 return Err(format!(
                     "took longer than {} s and was ended",
                     time_limit.as_secs_f32()
@@ -106,9 +153,20 @@ fn wait(child: &mut Child, time_limit: Duration) -> Result<ExitStatus, String> {
 mod tests {
     use super::*;
 
-    fn shell(script: &str, input: &[u8], limit: Duration) -> Result<Outcome, String> {
+    const LIMITS: Limits = Limits {
+        time: LONG,
+        memory_bytes: 1 << 30,
+        output_bytes: 1000,
+    };
+
+    fn shell(script: &str, input: &[u8], time: Duration) -> Result<Outcome, String> {
         let arguments = ["-c".to_owned(), script.to_owned()];
-        run(Path::new("/bin/sh"), &arguments, input, limit, 1000)
+        run(
+            Path::new("/bin/sh"),
+            &arguments,
+            input,
+            &Limits { time, ..LIMITS },
+        )
     }
 
     const LONG: Duration = Duration::from_secs(30);
@@ -126,6 +184,24 @@ mod tests {
         let problem = shell("exec sleep 60", b"", Duration::from_millis(50)).unwrap_err();
         assert!(problem.contains("took longer than 0.05 s"), "{problem}");
         assert!(start.elapsed() < LONG);
+    }
+
+    #[test]
+    fn what_a_program_started_is_ended_with_it() {
+        let start = Instant::now();
+        let problem = shell("sleep 60 & sleep 60", b"", Duration::from_millis(50)).unwrap_err();
+        assert!(problem.contains("took longer"), "{problem}");
+        // The grandchild holds the pipes: were it alive, they would be read until it ends.
+        assert!(start.elapsed() < LONG);
+    }
+
+    #[test]
+    fn memory_beyond_the_limit_is_refused() {
+        let script = "x=xxxxxxxxxxxxxxxx; while :; do x=$x$x; done";
+        let outcome = shell(script, b"", LONG).unwrap();
+        assert!(!outcome.success, "{}", outcome.output);
+        // Negative control: within the limit the same shell is fine.
+        assert!(shell("x=xxxxxxxxxxxxxxxx; x=$x$x", b"", LONG).unwrap().success);
     }
 
     #[test]
@@ -150,7 +226,7 @@ mod tests {
 
     #[test]
     fn a_missing_program_is_said() {
-        let problem = run(Path::new("/nowhere/tool"), &[], b"", LONG, 10).unwrap_err();
+        let problem = run(Path::new("/nowhere/tool"), &[], b"", &LIMITS).unwrap_err();
         assert!(problem.contains("could not be started"));
     }
 }

@@ -2,9 +2,10 @@
 //!
 //! It checks a module against the rules of SPIR-V and of the Vulkan version that takes this version of SPIR-V.
 
-use crate::external::Tool;
+use crate::emit::EmittedFile;
+use crate::external::{Input, Tool};
 use crate::options::EmitOptions;
-use crate::target::{Stage, Target};
+use crate::target::Target;
 
 pub(super) const TOOL: Tool = Tool {
     name: "spirv-val",
@@ -12,6 +13,7 @@ pub(super) const TOOL: Tool = Tool {
     version_arguments: &["--version"],
     version,
     target: Target::Spirv,
+    input: Input::Pipe,
     arguments,
 };
 
@@ -21,7 +23,7 @@ fn version(said: &str) -> Option<String> {
     line.split_whitespace().nth(1).map(str::to_owned)
 }
 
-fn arguments(_: Stage, options: &EmitOptions) -> Result<Vec<String>, String> {
+fn arguments(_: &EmittedFile, options: &EmitOptions) -> Result<Vec<String>, String> {
     let environment = match options.spirv {
         (1, 0..=3) => "vulkan1.1",
         (1, 4) => "vulkan1.1spv1.4",
