@@ -253,7 +253,7 @@ fn without_a_driver_everything_runs_embedded_and_says_so() {
         .iter()
         .map(|one| one["route"].as_str().unwrap())
         .collect();
-    assert_eq!(routes, ["wgsl", "spirv"]);
+    assert_eq!(routes, ["wgsl", "spirv", "hlsl", "glsl"]);
     assert!(
         left_out[0]["reason"]
             .as_str()

@@ -83,6 +83,7 @@ impl Pairs {
         }
         let mut not_run = left_out(selection, &routes, &pairs, all)?;
         not_run.extend(without_tool);
+        not_run.sort_by_key(|left_out| left_out.route);
         Ok(Self {
             adapters: pairs,
             not_run,

@@ -96,7 +96,7 @@ impl AccuracyCase {
         };
         let prepared = bench.route.prepare(&assembled)?;
         let program = program(&text)?;
-        let known = deviations::of(self.function.name, bench.device.info());
+        let known = deviations::of(self.function.name, bench.route, bench.device.info());
         let run = |values: &[f32]| -> Result<Comparison, String> {
             let shader = prepared.shader(ENTRY)?;
             let items = values.len() / 2;
@@ -205,9 +205,8 @@ impl Case for AccuracyCase {
 
 #[cfg(test)]
 mod tests {
-    use bossage_runner::AdapterInfo;
-
     use super::*;
+    use crate::route::Route;
 
     fn find(name: &str) -> &'static Function {
         functions::ALL
@@ -285,6 +284,7 @@ mod tests {
     #[test]
     fn a_deviation_is_expected_where_it_is_listed_and_stale_where_it_does_not_show() {
         let known = Deviation {
+            route: None,
             driver: "none",
             function: "add",
             witness: [1.0, 2.0],
@@ -305,6 +305,14 @@ mod tests {
     }
 
     #[test]
+    fn a_deviation_of_a_route_is_none_of_another() {
+        let info = bossage_embedded::info();
+        let of = |route| deviations::of("sign", route, &info).map(|known| known.route);
+        assert_eq!(of(Route::Hlsl), Some(Some(Route::Hlsl)));
+        assert_eq!((of(Route::Glsl), of(Route::Wgsl)), (None, None));
+    }
+
+    #[test]
     fn deviations_name_functions_that_there_are() {
         for known in deviations::ALL {
             assert!(
@@ -313,6 +321,5 @@ mod tests {
                 known.function
             );
         }
-        let _: fn(&str, &AdapterInfo) -> Option<&'static Deviation> = deviations::of;
     }
 }

@@ -100,6 +100,8 @@ struct Splitter<'m> {
     module: &'m mut Module,
     /// By the variable that was both and is now the texture.
     pairs: BTreeMap<Word, Pair>,
+    /// The variable of each sampler, by name: textures may share one.
+    samplers: BTreeMap<String, Word>,
     sampler_type: Word,
 }
 
@@ -109,6 +111,7 @@ impl<'m> Splitter<'m> {
         let mut splitter = Self {
             module,
             pairs: BTreeMap::new(),
+            samplers: BTreeMap::new(),
             sampler_type,
         };
         let joined = splitter.joined();
@@ -169,9 +172,13 @@ impl<'m> Splitter<'m> {
         let Some(name) = texture.glsl.as_ref().and_then(|slot| slot.sampler.as_ref()) else {
             return Ok(None);
         };
+        if let Some(known) = self.samplers.get(name) {
+            return Ok(Some(*known));
+        }
         let binding = entry.bindings.iter().find(|binding| &binding.name == name);
         let binding = binding.ok_or_else(|| format!("the manifest has no sampler `{name}`"))?;
         let sampler = fresh(self.module);
+        self.samplers.insert(name.clone(), sampler);
         let class = Operand::StorageClass(StorageClass::UniformConstant);
         globals.push(instruction(
             Op::Variable,

@@ -92,7 +92,7 @@ fn piped(command: &mut Command) -> std::io::Result<Child> {
 fn end(child: &mut Child) {
     #[cfg(unix)]
     let _ = Command::new("/bin/sh")
-        .args(["-c", "kill -KILL -- \"-$1\"", "sh", &child.id().to_string()])
+        .args(["-c", "kill -s KILL -- \"-$1\"", "sh", &child.id().to_string()])
         .stderr(Stdio::null())
         .status();
     let _ = child.kill();

@@ -1,0 +1,149 @@
+//! SPIR-V that compilers of others make of emitted text: everything is where the source has it, and tools that misbehave are told.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use bossage_translate::external::{State, Validator, to_spirv};
+use bossage_translate::{EmitOptions, Shader, ShaderModel, Source, Target, emit, manifest};
+
+mod support;
+
+/// Two textures that share a sampler, one that is only loaded from, buffers, and locations out of order.
+const SURFACE: &str = "
+    struct Tint { colour: vec4f, amount: f32 }
+    @group(1) @binding(2) var<uniform> tint: Tint;
+    @group(0) @binding(3) var albedo: texture_2d<f32>;
+    @group(0) @binding(1) var normal: texture_2d<f32>;
+    @group(2) @binding(0) var table: texture_2d<f32>;
+    @group(0) @binding(5) var shared_sampler: sampler;
+    struct In { @location(4) uv: vec2f, @location(1) light: vec3f }
+    @fragment fn shade(in: In) -> @location(0) vec4f {
+        let at = textureSample(normal, shared_sampler, in.uv).xy;
+        let row = textureLoad(table, vec2i(1, 0), 0);
+        return tint.amount * tint.colour * textureSample(albedo, shared_sampler, at) + row + vec4f(in.light, 0.0);
+    }";
+
+fn shader() -> Shader {
+    Shader::parse("surface", &Source::Wgsl(SURFACE.to_owned())).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn options() -> EmitOptions {
+    EmitOptions {
+        hlsl: ShaderModel::V6_0,
+        ..EmitOptions::default()
+    }
+}
+
+/// What a tool makes of the surface in a language.
+fn compile(target: Target, tools: &[Validator], cache: Option<&Path>) -> Result<Vec<u8>, String> {
+    let (shader, options) = (shader(), options());
+    let emitted = emit(&shader, target, &options).unwrap_or_else(|error| panic!("{error}"));
+    let manifest = manifest(&shader, &options, std::slice::from_ref(&emitted));
+    to_spirv(&emitted, &manifest.entries[0], &options, tools, cache).map(|made| made.bytes)
+}
+
+/// Every resource as its kind, group and binding, and every location that is read.
+fn places(spirv: &[u8]) -> (BTreeSet<(String, u32, u32)>, BTreeSet<u32>) {
+    let shader =
+        Shader::parse("back", &Source::Spirv(spirv.to_vec())).unwrap_or_else(|error| panic!("{error}"));
+    let manifest = manifest(&shader, &EmitOptions::default(), &[]);
+    let entry = &manifest.entries[0];
+    let kind = |kind| format!("{kind:?}");
+    let resources = entry
+        .bindings
+        .iter()
+        .map(|one| (kind(one.kind), one.group, one.binding));
+    (
+        resources.collect(),
+        entry.inputs.iter().filter_map(|input| input.location).collect(),
+    )
+}
+
+#[test]
+fn resources_and_locations_are_where_the_source_has_them() {
+    let expected = [
+        ("Sampler", 0, 5),
+        ("Texture", 0, 1),
+        ("Texture", 0, 3),
+        ("Texture", 2, 0),
+        ("UniformBuffer", 1, 2),
+    ];
+    let expected: BTreeSet<_> = expected
+        .map(|(kind, group, binding)| (kind.to_owned(), group, binding))
+        .into();
+    for (target, name) in [(Target::Hlsl, "dxc"), (Target::Glsl, "glslangValidator")] {
+        let Some(tools) = support::tool(name) else {
+            continue;
+        };
+        let spirv = compile(target, &tools, None).unwrap_or_else(|error| panic!("{target}: {error}"));
+        assert_eq!(
+            places(&spirv),
+            (expected.clone(), BTreeSet::from([1, 4])),
+            "{target}"
+        );
+    }
+}
+
+#[test]
+fn a_register_that_is_stated_wrongly_is_refused() {
+    let Some(tools) = support::tool("dxc") else { return };
+    let (shader, options) = (shader(), options());
+    let emitted = emit(&shader, Target::Hlsl, &options).unwrap();
+    let mut manifest = manifest(&shader, &options, std::slice::from_ref(&emitted));
+    let slot = manifest.entries[0].bindings[0].hlsl.as_mut().expect("a register");
+    slot.register = "t9".to_owned();
+    let refused = to_spirv(&emitted, &manifest.entries[0], &options, &tools, None).unwrap_err();
+    assert!(refused.contains("register"), "{refused}");
+}
+
+#[test]
+fn what_was_compiled_once_comes_from_the_cache() {
+    let Some(mut tools) = support::tool("glslangValidator") else {
+        return;
+    };
+    let cache = tempfile::tempdir().unwrap();
+    let first = compile(Target::Glsl, &tools, Some(cache.path())).unwrap();
+    for tool in &mut tools {
+        tool.path = Some("/nowhere/at/all".into());
+    }
+    assert_eq!(compile(Target::Glsl, &tools, Some(cache.path())).unwrap(), first);
+    assert!(compile(Target::Glsl, &tools, None).is_err());
+}
+
+/// A tool that is a shell script.
+#[cfg(unix)]
+fn scripted(name: &str, script: &str, folder: &Path) -> Vec<Validator> {
+    use std::os::unix::fs::PermissionsExt;
+
+    let path = folder.join(name);
+    std::fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
+    std::fs::set_permissions(&path, std::fs::Permissions::from_mode(0o755)).unwrap();
+    vec![Validator {
+        tool: name.to_owned(),
+        version: Some("0".to_owned()),
+        path: Some(path),
+        state: State::Enabled,
+        reason: None,
+    }]
+}
+
+#[cfg(unix)]
+#[test]
+fn tools_that_crash_write_nothing_or_write_megabytes_are_told_apart() {
+    for (target, name) in [(Target::Hlsl, "dxc"), (Target::Glsl, "glslangValidator")] {
+        for (script, said) in [
+            ("kill -SEGV $$", "signal"),
+            ("exit 0", "wrote nothing"),
+            ("yes error | head -c 5000000; exit 1", "more bytes"),
+            (
+                "for last; do :; done; for o; do [ -w \"$o\" ] && echo junk > \"$o\"; done; exit 0",
+                "no SPIR-V",
+            ),
+        ] {
+            let folder = tempfile::tempdir().unwrap();
+            let problem = compile(target, &scripted(name, script, folder.path()), None).unwrap_err();
+            assert!(problem.contains(said), "{name}, {script}: {problem}");
+            assert!(problem.len() < 20_000, "{} bytes", problem.len());
+        }
+    }
+}
