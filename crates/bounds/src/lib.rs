@@ -59,7 +59,8 @@
 //! - An exactly zero quotient or root is zero; `atan2(0, x)` for `x > 0` is as accurate as beside it.
 //! - `determinant` and derivatives, for which WGSL states no accuracy, have the accuracy of their formulas.
 //! - `f64`, which WGSL does not have, has the `f32` entries of the table in its own units.
-//! - Textures: 8 sub-texel bits ([`SUBTEXEL`]), 4 bits of the level of detail ([`LOD_SLACK`]), no anisotropy.
+//! - Textures: 8 sub-texel bits ([`SUBTEXEL`]), 4 bits of the level of detail ([`LOD_SLACK`]), no anisotropy. A filter of 8 or 16-bit
+//!   normalised texels may work in their precision: a step of 1/255 along each axis, or two of 1/65535.
 //! - Subgroups have 4 to 128 invocations and any members: in an interval domain votes, least and greatest values, broadcasts and
 //!   shuffles hold for all of them, and sums, scans and ballots are undecided.
 //! - A write out of bounds is dropped; it is counted in [`Counters::out_of_bounds`].

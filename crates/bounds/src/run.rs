@@ -109,9 +109,9 @@ pub fn run_fragment<D: Domain>(
     limits: &Limits,
 ) -> Result<(StageOutputs<D>, Outcome)> {
     expect_stage(program, ShaderStage::Fragment, "fragment")?;
-    if program.uses_derivatives() && !inputs.count.is_multiple_of(4) {
+    if program.uses_derivatives() && !inputs.lone && !inputs.count.is_multiple_of(4) {
         let reason = format!(
-            "the shader takes derivatives, so fragments come in quads of four; {} were given",
+            "the shader takes derivatives, so fragments come in quads of four or are said to be lone; {} were given",
             inputs.count
         );
         return Err(Error::Input {

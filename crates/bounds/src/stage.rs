@@ -60,6 +60,8 @@ impl<D: Domain> Column<D> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct StageInputs<D: Domain> {
     pub(crate) count: usize,
+    /// Whether fragments come without the quads that they were drawn in.
+    pub(crate) lone: bool,
     pub(crate) columns: BTreeMap<Slot, Column<D>>,
 }
 
@@ -69,8 +71,19 @@ impl<D: Domain> StageInputs<D> {
     pub fn new(count: usize) -> Self {
         Self {
             count,
+            lone: false,
             columns: BTreeMap::new(),
         }
+    }
+
+    /// Each fragment by itself, its neighbours in the quad unknown: its derivatives, and a level of detail that follows from them,
+    /// are indeterminate (zero in point domains).
+    ///
+    /// For fragments whose inputs were read back from a picture: there the pixel beside one may belong to another triangle, and
+    /// the derivative is then that of a helper invocation, which nobody has seen.
+    #[must_use]
+    pub fn lone(self) -> Self {
+        Self { lone: true, ..self }
     }
 
     /// Sets a slot; `components` scalars for each invocation.

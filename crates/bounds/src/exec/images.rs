@@ -126,7 +126,7 @@ impl<'a, D: Domain> Machine<'a, D> {
         lo.clamp(0, last) as u32..=hi.clamp(0, last) as u32
     }
 
-    /// Bounds of the level of detail; `None` when nothing is known.
+    /// Bounds of the level of detail; `None` when nothing is known and it matters.
     fn level_bounds(
         &self,
         sample: &Sample,
@@ -134,6 +134,9 @@ impl<'a, D: Domain> Machine<'a, D> {
         lane: u32,
         neighbours: &[Vec<Option<D::Cell>>],
     ) -> Option<Bounds> {
+        if request.has_one_level() {
+            return Some((0.0, 0.0));
+        }
         let known = |b: Bounds| (!b.0.is_nan()).then_some(b);
         let of_row = |row: Row| known(D::float_bounds(self.get(row, lane)));
         match &sample.level {

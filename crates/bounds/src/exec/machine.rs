@@ -70,6 +70,8 @@ pub(crate) struct Machine<'a, D: Domain> {
     /// Lanes a row has room for.
     pub(crate) stride: usize,
     pub(crate) lanes: Lanes<D>,
+    /// Whether nothing is known of the other fragments of an invocation's quad.
+    pub(crate) lone: bool,
     pub(crate) view: View<'a, D>,
     pub(crate) counters: Counters,
     /// Operations this batch may execute.
@@ -91,6 +93,7 @@ impl<'a, D: Domain> Machine<'a, D> {
             regs: vec![D::Cell::default(); code.kinds.len() * stride],
             stride,
             lanes: Lanes::new(n),
+            lone: false,
             view: View::new(context.memory),
             counters: Counters::default(),
             budget: context.limits.operations.saturating_mul(n as u64),

@@ -34,9 +34,12 @@ impl<'a, D: Domain> Machine<'a, D> {
         }
     }
 
-    /// For every invocation, the hull of a row over its active lanes.
+    /// For every invocation, the hull of a row over its active lanes; nothing where neighbours are no neighbours.
     pub(crate) fn by_invocation(&self, row: Row, kind: Kind, active: &[u32]) -> Vec<Option<D::Cell>> {
         let mut out: Vec<Option<D::Cell>> = vec![None; self.lanes.count()];
+        if self.lone {
+            return out;
+        }
         for &lane in active {
             let entry = &mut out[self.lanes.root[lane as usize] as usize];
             let cell = self.get(row, lane);

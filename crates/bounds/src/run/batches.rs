@@ -222,7 +222,7 @@ pub(super) fn stage<D: Domain>(
     let batches = inputs.count.div_ceil(lanes);
     let (parts, counters) = windows(program, prepared, limits, batches, |context, index| {
         let range = index * lanes..((index + 1) * lanes).min(inputs.count);
-        stage_batch(context, &columns, range)
+        stage_batch(context, (&columns, inputs.lone), range)
     })?;
     let mut outputs = StageOutputs {
         columns: BTreeMap::new(),
@@ -256,12 +256,13 @@ struct StagePart<D: Domain> {
 
 fn stage_batch<D: Domain>(
     context: &Context<'_, D>,
-    columns: &[Option<&Column<D>>],
+    (columns, lone): (&[Option<&Column<D>>], bool),
     range: std::ops::Range<usize>,
 ) -> Result<BatchResult<D, StagePart<D>>> {
     let program = context.program;
     let n = range.len();
     let mut machine = Machine::new(context, n);
+    machine.lone = lone;
     for (port, column) in program.inputs.iter().zip(columns) {
         set_stage_input(&mut machine, port, *column, range.clone())?;
     }

@@ -3,6 +3,10 @@
 //! Along each axis an uncertain coordinate selects a short list of *cells* (a texel and its neighbour), each with bounds of the
 //! weight within it. A weighted mean is linear in each weight, so its extremes over a cell lie at the corners of the weights'
 //! box: the result is the exact hull, cell by cell.
+//!
+//! Besides, a filter may work in the precision of the texels ([`TexelFormat::filter_step`](super::TexelFormat::filter_step)):
+//! software drivers filter bytes in bytes. Texels that are all the same come out as they are, in whatever precision, since weights sum
+//! to 1.
 
 use super::{AddressMode, Bounds, Filter, SUBTEXEL};
 
@@ -110,17 +114,18 @@ pub(crate) fn hull(a: [Bounds; 4], b: [Bounds; 4]) -> [Bounds; 4] {
     std::array::from_fn(|c| (a[c].0.min(b[c].0), a[c].1.max(b[c].1)))
 }
 
-/// The weighted mean over all cells of three axes; `texel` gives the bounds of a texel's channels.
+/// The weighted mean over all cells of three axes; `texel` gives the bounds of a texel's channels. The allowance is the step of a
+/// filter's arithmetic along one axis (0 for floats), and `None` for the ideal mean.
 pub(crate) fn filtered(
     axes: &[Axis; 3],
-    uncertain: bool,
+    allowance: Option<f64>,
     texel: &mut impl FnMut([i64; 3]) -> [Bounds; 4],
 ) -> [Bounds; 4] {
     let mut total: Option<[Bounds; 4]> = None;
     for (z, wz) in axes[2].cells() {
         for (y, wy) in axes[1].cells() {
             for (x, wx) in axes[0].cells() {
-                let cell = cell_mean([x, y, z], [wx, wy, wz], uncertain, texel);
+                let cell = cell_mean([x, y, z], [wx, wy, wz], allowance, texel);
                 total = Some(total.map_or(cell, |t| hull(t, cell)));
             }
         }
@@ -131,15 +136,16 @@ pub(crate) fn filtered(
 fn cell_mean(
     base: [i64; 3],
     weights: [Bounds; 3],
-    uncertain: bool,
+    allowance: Option<f64>,
     texel: &mut impl FnMut([i64; 3]) -> [Bounds; 4],
 ) -> [Bounds; 4] {
     let mut mean = along(2, base, &weights, texel);
-    let blends = weights.iter().any(|w| w.1 > 0.0);
-    if uncertain && blends {
+    let blended = weights.iter().filter(|w| w.1 > 0.0).count() as f64;
+    if let Some(step) = allowance.filter(|_| blended > 0.0) {
         for bounds in &mut mean {
+            let steps = if bounds.0 == bounds.1 { 0.0 } else { blended * step };
             // Three interpolations in f32, each with two roundings of at most one unit of the greatest magnitude.
-            let pad = bounds.0.abs().max(bounds.1.abs()) * f64::from(f32::EPSILON) * 3.0;
+            let pad = bounds.0.abs().max(bounds.1.abs()) * f64::from(f32::EPSILON) * 3.0 + steps;
             *bounds = (bounds.0 - pad, bounds.1 + pad);
         }
     }
@@ -217,7 +223,7 @@ mod tests {
         let axis = Axis::new(u, 4, 0, Filter::Linear, true, 64).unwrap_or(Axis::flat());
         let value = |i: i64| [0.0, 1.0, 5.0, 2.0][i.clamp(0, 3) as usize];
         let axes = [axis, Axis::flat(), Axis::flat()];
-        let bounds = filtered(&axes, true, &mut |at| [(value(at[0]), value(at[0])); 4])[0];
+        let bounds = filtered(&axes, Some(0.0), &mut |at| [(value(at[0]), value(at[0])); 4])[0];
         for k in 0..=100 {
             let x = (u.0 + (u.1 - u.0) * f64::from(k) / 100.0) * 4.0 - 0.5;
             let i = x.floor();

@@ -120,6 +120,21 @@ impl TexelFormat {
         )
     }
 
+    /// How far a filter that works in the precision of the texels may be off along one axis: by a step of 1/255 where it rounds a
+    /// byte once, by two of 1/65535 where it truncates two 16-bit products. Other formats are filtered in floats.
+    pub(crate) fn filter_step(self) -> f64 {
+        match self.encoding() {
+            Encoding::Unorm(8) => 1.0 / 255.0,
+            Encoding::Unorm(16) => 2.0 / 65535.0,
+            Encoding::Unorm(_)
+            | Encoding::Snorm(_)
+            | Encoding::Float(_)
+            | Encoding::Int(_)
+            | Encoding::Rgb10a2 { .. }
+            | Encoding::Rg11b10 => 0.0,
+        }
+    }
+
     /// The format of a storage texture.
     pub fn of_storage(format: StorageFormat) -> Self {
         match format {

@@ -3,7 +3,7 @@
 //! Filtering is written once over bounds. A point domain passes bounds that coincide and gets the ideal result (exact weights,
 //! rounded once); an interval domain gets what hardware may do: coordinates are known to 8 sub-texel bits
 //! ([`SUBTEXEL`]), levels of detail to 4 bits ([`LOD_SLACK`], the least that Vulkan asks for), and the weighted sum is rounded a
-//! few times. Anisotropic filtering is not modelled.
+//! few times, in the precision of the texels where those are bytes or 16-bit numbers. Anisotropic filtering is not modelled.
 
 pub(crate) mod cube;
 pub(crate) mod filter;

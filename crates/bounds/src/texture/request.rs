@@ -35,6 +35,16 @@ impl Request<'_> {
         }
     }
 
+    /// Whether every level of detail reads the same: there is one level, and one filter for it.
+    pub(crate) fn has_one_level(&self) -> bool {
+        self.texture.levels() == 1 && self.sampler.mag == self.sampler.min
+    }
+
+    /// What a filter's arithmetic may add along one axis.
+    fn allowance(&self, uncertain: bool) -> Option<f64> {
+        uncertain.then(|| self.texture.format().filter_step())
+    }
+
     /// The level of detail for a change of the coordinate along x and along y.
     pub(crate) fn level(&self, dx: [Bounds; 3], dy: [Bounds; 3], uncertain: bool) -> Bounds {
         if self.texture.dimension() == Dimension::Cube {
@@ -119,7 +129,11 @@ impl Request<'_> {
             return lower;
         }
         let upper = self.one_level(tap.level + 1, layer, tap.filter, uncertain);
-        std::array::from_fn(|c| filter::lerp(lower[c], upper[c], (tap.weight, tap.weight)))
+        let step = self.allowance(uncertain).unwrap_or(0.0);
+        std::array::from_fn(|c| {
+            let (low, high) = filter::lerp(lower[c], upper[c], (tap.weight, tap.weight));
+            (low - step, high + step)
+        })
     }
 
     pub(crate) fn one_level(&self, level: usize, layer: u32, filter: Filter, uncertain: bool) -> Channels {
@@ -127,7 +141,7 @@ impl Request<'_> {
             self.cube_level_value(level, layer, filter, uncertain)
         } else {
             self.axes_at(level, filter, uncertain)
-                .map(|axes| filtered(&axes, uncertain, &mut |at| self.fetch(level, layer, at)))
+                .map(|axes| filtered(&axes, self.allowance(uncertain), &mut |at| self.fetch(level, layer, at)))
         };
         result.unwrap_or_else(|_| self.anything(level))
     }
@@ -181,7 +195,7 @@ impl Request<'_> {
         let n = self.texture.size(level)[0];
         let axis = |k: usize| Axis::new(at[k], n, 0, filter, uncertain, self.limit);
         let axes = [axis(0)?, axis(1)?, Axis::flat()];
-        Ok(filtered(&axes, uncertain, &mut |[i, j, _]| {
+        Ok(filtered(&axes, self.allowance(uncertain), &mut |[i, j, _]| {
             self.cube_texel(level, layer, (face, i, j), n, uncertain)
         }))
     }

@@ -10,5 +10,6 @@ mod generated;
 mod limits;
 mod lint;
 mod math;
+mod precision;
 mod ranges;
 mod textures;
