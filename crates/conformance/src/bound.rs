@@ -50,6 +50,14 @@ impl Bound {
         Self { forked: true, ..self }
     }
 
+    /// The differences between a number of this bound and one of the other.
+    #[must_use]
+    pub fn minus(self, other: Self) -> Self {
+        let forked = self.forked || other.forked;
+        let difference = Self::between(self.low - other.high, self.high - other.low);
+        Self { forked, ..difference }
+    }
+
     /// The least value allowed.
     #[must_use]
     pub fn low(&self) -> f64 {

@@ -136,7 +136,5 @@ pub const TABLE: &[Tolerance] = &[
 
 /// The bounds that the surface's analysis shares with the probes'.
 pub(crate) mod formula;
-pub(crate) mod surface;
-pub(crate) mod texture;
 
 use formula::*;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use bossage_bounds::{Limits, run_compute};
+use bossage_bounds::{F32, Limits, run_compute};
 use bossage_runner::{ComputeJob, ComputeOutput, Error, Machine, Value, resolve};
 use bossage_translate::Stage;
 use bossage_translate::manifest::Kind;
@@ -27,7 +27,7 @@ pub(crate) fn run(machine: &Embedded, job: &ComputeJob<'_>) -> Result<ComputeOut
         )?;
     }
     let resolved = resolve(job.name, &[&job.shader], &job.resources)?;
-    let mut bindings = bindings(machine, job.name, &resolved)?;
+    let mut bindings = bindings::<F32>(job.name, &resolved)?;
     let compiled = machine.programs.get(job.name, &job.shader)?;
     run_compute(
         &compiled.program,

@@ -1,5 +1,6 @@
 //! One draw: vertices, triangles, coverage, fragments.
 
+use bossage_bounds::F32;
 use bossage_runner::{Blend, Cull, Draw, Error, RenderJob, Shader, resolve};
 use bossage_translate::Stage;
 
@@ -25,7 +26,7 @@ pub(crate) fn run(
 ) -> Result<(), Error> {
     check(job, draw)?;
     let resolved = resolve(job.name, &[&draw.vertex, &draw.fragment], &draw.resources)?;
-    let mut bindings = bindings(machine, job.name, &resolved)?;
+    let mut bindings = bindings::<F32>(job.name, &resolved)?;
     let vertices = Vertices::run(machine, job.name, draw, &mut bindings)?;
     let triangles = triangles(draw, &vertices.positions(draw)?);
     let size = [job.width, job.height];

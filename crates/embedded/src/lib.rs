@@ -6,7 +6,8 @@
 //!
 //! - [`adapters`]: every driver's, and `embedded` as the last;
 //! - [`open`]: the one that is wanted; without any driver that is this one;
-//! - [`Embedded`]: the machine itself.
+//! - [`Embedded`]: the machine itself;
+//! - [`bindings`]: what a job binds, as the evaluator takes it in any of its domains.
 //!
 //! What is taken from whom. Shading, texture reads and derivatives are the evaluator's. Coverage is a rasteriser's business,
 //! which no accuracy rule covers; ours follows what drivers do (see [`Embedded`]), so that pictures can be compared.
@@ -50,5 +51,6 @@ mod texture;
 mod triangle;
 mod vertex;
 
+pub use bind::bindings;
 pub use machine::Embedded;
 pub use select::{NAME, adapters, info, open};

@@ -4,14 +4,12 @@ use bossage_runner::{
     AdapterInfo, ComputeJob, ComputeOutput, DispatchLimits, Error, Machine, RenderJob, RenderOutput,
 };
 
+use crate::bind::MAX_BUFFER_BYTES;
 use crate::program::Programs;
 use crate::{compute, render, select};
 
 /// Workgroups of a dispatch along an axis: what WebGPU promises everywhere.
 const MAX_WORKGROUPS: u32 = 65_535;
-
-/// Bytes of a buffer: what WebGPU promises everywhere.
-const MAX_BUFFER_BYTES: u64 = 128 << 20;
 
 /// A machine without a driver. It can be shared between threads; it uses all cores by itself.
 ///

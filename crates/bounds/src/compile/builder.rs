@@ -4,6 +4,7 @@ use super::chains::Chains;
 use super::code::{
     Block, Code, Constant, Effects, FunctionCode, HandleRef, Instr, Node, Op, Place, Root, Row,
 };
+use super::facts;
 use super::layout::{Types, unsupported};
 use crate::error::{Error, Result};
 use crate::kind::Kind;
@@ -256,6 +257,7 @@ impl<'m> Builder<'m> {
                 Span::UNDEFINED,
             );
         }
+        facts::note(&mut self.code.facts, &op);
         frame.pending.push(Instr { op, span: frame.span });
         Ok(())
     }

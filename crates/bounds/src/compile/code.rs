@@ -7,6 +7,7 @@
 //! Invariant (checked by the builder): the destination of an expression instruction is a row allocated after its operands. Only
 //! stores to variables go to older rows.
 
+use super::facts::FactsByRow;
 use crate::domain::ops::{BoolBinary, Compare, FloatBinary, FloatTernary, FloatUnary, IntBinary, IntUnary};
 use crate::kind::{IntType, Kind};
 use crate::width::Width;
@@ -507,6 +508,8 @@ pub(crate) struct Code {
     pub(crate) spans: Vec<Span>,
     /// Spans of `normalize`, which divides by a length.
     pub(crate) normalises: std::collections::BTreeSet<u32>,
+    /// What conditions say of what they compare.
+    pub(crate) facts: FactsByRow,
     pub(crate) uses_derivatives: bool,
     pub(crate) uses_barriers: bool,
     pub(crate) uses_subgroups: bool,

@@ -95,6 +95,10 @@ pub trait Domain: sealed::Sealed + Copy + PartialEq + std::fmt::Debug + Send + S
     fn reordered(op: FloatBinary, w: Width, written: Self::Cell, terms: &[Self::Cell]) -> Self::Cell;
     /// A comparison of floats.
     fn compare(op: Compare, w: Width, a: Self::Cell, b: Self::Cell) -> Self::Cell;
+    /// What two floats are where a comparison of them holds that could go either way.
+    fn narrow(op: Compare, w: Width, a: Self::Cell, b: Self::Cell) -> (Self::Cell, Self::Cell);
+    /// A cell that contains both parts of what [`Domain::narrow`] has divided, as it was before.
+    fn unite(a: Self::Cell, b: Self::Cell) -> Self::Cell;
     /// The exponent that `frexp` returns, as an `i32`.
     fn frexp_exponent(w: Width, a: Self::Cell) -> Self::Cell;
     /// `x * 2^e` for an `i32` exponent.

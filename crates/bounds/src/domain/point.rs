@@ -300,6 +300,12 @@ macro_rules! point_domain {
             fn hull(_kind: Kind, a: u64, _b: u64) -> u64 {
                 a
             }
+            fn narrow(_op: Compare, _w: Width, a: u64, b: u64) -> (u64, u64) {
+                (a, b)
+            }
+            fn unite(a: u64, _b: u64) -> u64 {
+                a
+            }
             #[inline(always)]
             fn unary(op: FloatUnary, w: Width, a: u64) -> u64 {
                 float_unary(op, w, f(a), |x| $round(w, x)).to_bits()

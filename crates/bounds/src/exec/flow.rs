@@ -114,7 +114,10 @@ impl<'a, D: Domain> Machine<'a, D> {
                 Truth::True => yes.push(lane),
                 Truth::False => no.push(lane),
                 Truth::Maybe => {
-                    no.push(self.fork(lane));
+                    let copy = self.fork(lane);
+                    self.narrow(cond, true, lane);
+                    self.narrow(cond, false, copy);
+                    no.push(copy);
                     yes.push(lane);
                 }
             }

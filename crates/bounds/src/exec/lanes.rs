@@ -30,6 +30,8 @@ pub(crate) struct Lanes<D: Domain> {
     /// Whether the lane was discarded.
     pub(crate) killed: Vec<Truth>,
     pub(crate) overlay: Vec<Option<Box<Overlay<D>>>>,
+    /// Rows that a condition has narrowed in some lane.
+    pub(crate) narrowed: BTreeSet<Row>,
     /// How many lanes an invocation has now.
     pub(crate) live: Vec<u32>,
     free: Vec<u32>,
@@ -47,6 +49,7 @@ impl<D: Domain> Lanes<D> {
             root: (0..n as u32).collect(),
             killed: vec![Truth::False; n],
             overlay: (0..n).map(|_| None).collect(),
+            narrowed: BTreeSet::new(),
             live: vec![1; n],
             free: Vec::new(),
             forks: 0,
@@ -142,6 +145,7 @@ impl<'a, D: Domain> Machine<'a, D> {
 
     /// Takes the hull of two lanes into the first and frees the second.
     fn merge(&mut self, keep: u32, drop: u32) {
+        self.widen(keep, drop);
         self.hull_variables(keep, drop);
         let other = self.lanes.overlay[drop as usize].take();
         if let Some(merged) = self.merged_overlay(keep, other) {

@@ -9,7 +9,7 @@
 //! overlay of its own and merged with it. A loop that an invocation may both leave and stay in for more than
 //! [`Limits::undecided_exits`](crate::Limits::undecided_exits) rounds is given up: what it writes becomes *undecided*.
 //!
-//! `machine` holds the state, `lanes` forks and merges, `flow` runs control flow, `ops` runs instructions, `memory` is shared
+//! `machine` holds the state, `lanes` forks and merges, `narrow` tells either way what its condition says, `flow` runs control flow, `ops` runs instructions, `memory` is shared
 //! memory, `places` resolves pointers, `packing`, `atomics`, `quads`, `images` hold the instructions of those names.
 
 pub(crate) mod atomics;
@@ -18,6 +18,7 @@ pub(crate) mod images;
 pub(crate) mod lanes;
 pub(crate) mod machine;
 pub(crate) mod memory;
+pub(crate) mod narrow;
 pub(crate) mod ops;
 pub(crate) mod packing;
 pub(crate) mod places;

@@ -2,7 +2,7 @@
 
 use super::integers::{self, Bounds};
 use super::rules::{flush, outward};
-use super::{Accept, Flags, Interval, Range, WideCell, arithmetic, bits, functions, orders};
+use super::{Accept, Flags, Interval, Range, WideCell, arithmetic, bits, functions, narrow, orders};
 use crate::compile::chains::MAX_TERMS;
 use crate::domain::ops::{BoolBinary, Compare, FloatBinary, FloatTernary, FloatUnary, IntBinary, IntUnary};
 use crate::domain::point::{bits_type, frexp};
@@ -263,6 +263,13 @@ macro_rules! interval_domain {
             }
             fn hull(kind: Kind, a: WideCell, b: WideCell) -> WideCell {
                 hull(kind, a, b)
+            }
+            fn narrow(op: Compare, w: Width, a: WideCell, b: WideCell) -> (WideCell, WideCell) {
+                let (a, b) = narrow::both(op, w, a.interval(), b.interval());
+                (put_float(a), put_float(b))
+            }
+            fn unite(a: WideCell, b: WideCell) -> WideCell {
+                put_float(a.interval().hull(b.interval()))
             }
             #[inline(always)]
             fn unary(op: FloatUnary, w: Width, a: WideCell) -> WideCell {

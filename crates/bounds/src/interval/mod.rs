@@ -14,6 +14,7 @@ pub(crate) mod bits;
 pub(crate) mod domain;
 pub(crate) mod functions;
 pub(crate) mod integers;
+pub(crate) mod narrow;
 pub(crate) mod orders;
 pub(crate) mod rules;
 

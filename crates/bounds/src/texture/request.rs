@@ -140,8 +140,11 @@ impl Request<'_> {
         let result = if self.texture.dimension() == Dimension::Cube {
             self.cube_level_value(level, layer, filter, uncertain)
         } else {
-            self.axes_at(level, filter, uncertain)
-                .map(|axes| filtered(&axes, self.allowance(uncertain), &mut |at| self.fetch(level, layer, at)))
+            self.axes_at(level, filter, uncertain).map(|axes| {
+                filtered(&axes, self.allowance(uncertain), &mut |at| {
+                    self.fetch(level, layer, at)
+                })
+            })
         };
         result.unwrap_or_else(|_| self.anything(level))
     }

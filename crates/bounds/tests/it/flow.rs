@@ -2,7 +2,8 @@
 
 use crate::common::{dispatch, probe, program};
 use bossage_bounds::{
-    Accept, Bindings, Error, F32, Interval, Limits, Range, Scalar, range_scalar, run_compute, run_probe,
+    Accept, Bindings, Error, F32, Interval, Limits, Range, Scalar, StageInputs, range_scalar, run_compute,
+    run_probe,
 };
 
 /// 0.1 + 0.2 lies strictly between 0.3 as an f32 and the number below it: rounding decides, so the interval cannot.
@@ -262,4 +263,82 @@ fn forks_are_paid_for() {
         )
         .is_ok()
     );
+}
+
+/// Behind a guard that returns early, and in both ways of a condition, a float is what the condition says.
+#[test]
+fn conditions_narrow_what_they_compare() {
+    let of = |body: &str, lo: f32, hi: f32| {
+        let shader = format!(
+            "@fragment fn main(@location(0) x: f32) -> @location(0) vec4f {{ return vec4f(f(x), x, 0.0, 0.0); }}
+             fn f(x: f32) -> f32 {{ {body} }}"
+        );
+        let range = Interval::new(f64::from(lo), f64::from(hi));
+        let input = StageInputs::<Accept>::new(1).location(0, 1, &[range]);
+        let (outputs, _) = bossage_bounds::run_fragment(
+            &program(&shader),
+            &mut Bindings::new(),
+            &input,
+            &Limits::default(),
+        )
+        .unwrap();
+        let all = outputs.location(0, 0).unwrap();
+        // Where the ways have met again it is what it was, and not forked.
+        assert_eq!(all[1], range);
+        all[0]
+    };
+    let guarded = of("if (x < 0.25) { return 4.0; } return 1.0 / x;", 0.0, 1.0);
+    assert!(
+        guarded.flags.is_none() && guarded.hi <= 4.0 + 1e-5 && guarded.lo > 0.99,
+        "{guarded:?}"
+    );
+    assert!(guarded.is_forked());
+    let either = of(
+        "if (!(x > 0.25)) { return 4.0 + 0.0 * x; } else { return 1.0 / x; }",
+        0.0,
+        1.0,
+    );
+    assert!(either.flags.is_none() && either.hi <= 4.0 + 1e-5, "{either:?}");
+    // Without the guard, or with the guard after the division, nothing is known.
+    assert!(of("return 1.0 / x;", 0.0, 1.0).is_indeterminate());
+    assert!(
+        of(
+            "let y = 1.0 / x; if (x < 0.25) { return 4.0; } return y;",
+            0.0,
+            1.0
+        )
+        .is_indeterminate()
+    );
+    // Zero is not among what is at least the smallest normal number, but it is among what is above zero.
+    assert!(
+        of(
+            "if (x < 1.17549435e-38) { return 0.0; } return log2(x);",
+            0.0,
+            1.0
+        )
+        .flags
+        .is_none()
+    );
+    assert!(of("if (x <= 0.0) { return 0.0; } return log2(x);", 0.0, 1.0).is_indeterminate());
+}
+
+/// What one way of a loop knows is not known any more where all ways meet.
+#[test]
+fn what_was_narrowed_is_widened_where_ways_meet() {
+    let shader = "@fragment fn main(@location(0) x: f32) -> @location(0) vec4f {
+        var sum = 0.0;
+        for (var i = 0; i < 3; i++) {
+            if (x < 0.5) { continue; }
+            sum += x;
+        }
+        return vec4f(x, sum, 0.0, 0.0);
+    }";
+    let range = Interval::new(0.0, 1.0);
+    let input = StageInputs::<Accept>::new(1).location(0, 1, &[range]);
+    let (outputs, _) =
+        bossage_bounds::run_fragment(&program(shader), &mut Bindings::new(), &input, &Limits::default())
+            .unwrap();
+    let all = outputs.location(0, 0).unwrap();
+    assert_eq!(all[0], range);
+    assert!(all[1].contains(0.0) && all[1].contains(3.0), "{:?}", all[1]);
 }

@@ -15,9 +15,11 @@ const LOOKUP: &str = "
 
 /// Red at (u, 0.5) of a row of two texels, filtered.
 fn red(texture: &Texture, u: f64) -> Interval {
-    let mut bindings = Bindings::<Accept>::new()
-        .texture(0, 0, texture.clone())
-        .sampler(0, 1, Sampler::linear(AddressMode::ClampToEdge));
+    let mut bindings = Bindings::<Accept>::new().texture(0, 0, texture.clone()).sampler(
+        0,
+        1,
+        Sampler::linear(AddressMode::ClampToEdge),
+    );
     let input = StageInputs::new(1)
         .location(0, 2, &[Interval::point(u), Interval::point(0.5)])
         .lone();
@@ -42,7 +44,10 @@ fn bytes_may_be_filtered_in_bytes() {
     assert!(x.contains(15.0 / 255.0) && x.contains(16.0 / 255.0), "{x:?}");
     // The second axis blends a texel with itself; only a step along each is allowed, and the slope's share of a sub-texel.
     let most = 2.0 / 255.0 + 11.0 / 255.0 / 256.0 + 1e-6;
-    assert!(x.hi <= 15.5 / 255.0 + most && x.lo >= 15.5 / 255.0 - most, "{x:?}");
+    assert!(
+        x.hi <= 15.5 / 255.0 + most && x.lo >= 15.5 / 255.0 - most,
+        "{x:?}"
+    );
 }
 
 #[test]
@@ -56,7 +61,10 @@ fn sixteen_bits_may_be_filtered_in_sixteen_bits_and_floats_in_floats() {
     let codes = [10_000_u16, 10_001].map(u16::to_le_bytes);
     let x = red(&row(TexelFormat::Rgba16Unorm, &codes[0], &codes[1]), 0.5);
     let off = |code: f64| (code - 10_000.5) / 65535.0;
-    assert!(x.contains(10_000.0 / 65535.0) && x.contains(10_001.0 / 65535.0), "{x:?}");
+    assert!(
+        x.contains(10_000.0 / 65535.0) && x.contains(10_001.0 / 65535.0),
+        "{x:?}"
+    );
     assert!(x.hi - 10_000.5 / 65535.0 <= off(10_005.0), "{x:?}");
     let floats = [0.25f32, 0.25 + 1.0 / 1024.0].map(f32::to_le_bytes);
     let x = red(&row(TexelFormat::R32Float, &floats[0], &floats[1]), 0.5);
@@ -71,8 +79,13 @@ fn the_derivatives_of_a_lone_fragment_are_open() {
         .location(0, 2, &[0.25, 0.5, 0.75, 0.5].map(Interval::point))
         .lone();
     let program = program(shader);
-    let (outputs, _) =
-        run_fragment(&program, &mut Bindings::<Accept>::new(), &input, &Limits::default()).expect("it runs");
+    let (outputs, _) = run_fragment(
+        &program,
+        &mut Bindings::<Accept>::new(),
+        &input,
+        &Limits::default(),
+    )
+    .expect("it runs");
     let first = outputs.location(0, 0).expect("the colour is there");
     assert!(first[0].flags.has(Flags::INDETERMINATE), "{:?}", first[0]);
     assert_eq!(first[1], Interval::point(0.25));

@@ -4,6 +4,7 @@
 //! IR of the shader that is run, evaluated over `bossage-bounds`' `Accept` domain. The comparator refuses a case where they
 //! disagree, so a shader that computes another formula is caught although its interval is its own.
 
+pub(crate) mod stages;
 pub mod truth;
 
 use bossage_bounds::{Accept, Limits, Program};

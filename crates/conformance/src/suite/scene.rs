@@ -1,34 +1,37 @@
 //! Scene cases: the surface shaders that a scene calls for, rendered, and judged pixel by pixel.
 //!
 //! Three cases a scene. `planned` renders every object with the permutation of the plan, `all_effects` with every effect on;
-//! each pixel is compared with the f64 surface and its bound at the very interpolants that the rasteriser chose (a capture
-//! variant of the same shader writes them out; it has no alpha test, so cut-out pixels are known too). `agreement` compares the
-//! two pictures: dropping effects must not change more than the two bounds allow.
+//! each pixel of each pass is judged by the f64 surface and by the acceptance interval of the fragment stage's own IR, at the very
+//! interpolants that the rasteriser chose (a capture variant of the same shader writes them out; it has no alpha test, so cut-out
+//! pixels are known too). `agreement` judges the two pictures by each other: dropping effects must not show.
 //!
-//! Textures are given with one level, which is what the reference models. Objects are rendered one by one.
+//! A hardened surface promises an answer at every pixel: an open interval is a failure. Textures are given with one level, which is
+//! what the reference models. Objects are rendered one by one.
 
 pub mod displacement;
+mod expected;
+mod interpolants;
+mod judge;
 mod pixels;
 mod rig;
-mod surface;
 mod truth;
 pub mod two_pass;
 mod upload;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use bossage_scene::{Draw, Plan, Scene, draws, draws_with};
-use bossage_shaders::Relief;
+use bossage_shaders::{Form, Stage};
 
-use self::pixels::{Pixel, modules, render};
-use self::surface::is_bounded;
+use self::expected::Expectations;
+use self::judge::{agreement, judged};
+use self::pixels::{Drawn, Object, modules, passes};
 use crate::bench::Bench;
-use crate::bounded::{Bounded, Decision};
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
-use crate::compare::{Comparison, Expected};
+use crate::compare::Comparison;
 use crate::module::Module;
 use crate::tolerance::UNDECIDED_LIMIT_FILTERED;
 
@@ -46,6 +49,8 @@ struct SceneCase {
     path: PathBuf,
     shaders: Shaders,
     loaded: OnceLock<Result<(Scene, Plan), String>>,
+    /// Kept between routes and adapters, as long as they run the same shaders at the same points.
+    expectations: Expectations,
 }
 
 /// Three cases a scene file.
@@ -63,6 +68,7 @@ pub fn cases(scenes: &[PathBuf]) -> impl Iterator<Item = Box<dyn Case>> {
                 path: path.clone(),
                 shaders,
                 loaded: OnceLock::new(),
+                expectations: Expectations::default(),
             }) as Box<dyn Case>
         })
     })
@@ -107,38 +113,54 @@ impl SceneCase {
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let (scene, plan) = self.scene()?;
-        let planned = draws(scene, plan);
-        if let Some(draw) = planned.iter().find(|draw| !is_bounded(draw)) {
-            let name = draw.features.name();
-            return Ok(Outcome::skipped(format!(
-                "no bound is known yet for {name}; its formulas are judged one by one by the cases of its techniques"
-            )));
-        }
-        if self.shaders == Shaders::Agreement && planned.iter().any(is_displaced) {
-            return Ok(Outcome::skipped(
-                "the two vertex stages round displaced vertices differently, and what that moves in the pixels' inputs has no \
-                 bound yet; `planned` and `all_effects` judge either picture",
-            ));
-        }
         let (mut comparison, mut inputs) = (Comparison::default(), 0);
-        for draw in &planned {
+        for (number, draw) in draws(scene, plan).iter().enumerate() {
             let full = everything(scene, plan, draw);
-            let size = scene.camera.size;
-            let (part, pixels) = match self.shaders {
-                Shaders::Planned => judged(&render(bench, draw, size)?),
-                Shaders::AllEffects => judged(&render(bench, &full, size)?),
-                Shaders::Agreement => agreement(&render(bench, draw, size)?, &render(bench, &full, size)?),
+            let object = Object {
+                bench,
+                number,
+                size: scene.camera.size,
+                expectations: &self.expectations,
             };
-            comparison.merge(part);
-            inputs += pixels;
+            for stage in passes(draw) {
+                let start = demanding(draw);
+                let (part, pixels) = match self.shaders {
+                    Shaders::Planned => alone(&object.render(draw, stage)?, start),
+                    Shaders::AllEffects => alone(&object.render(&full, stage)?, start),
+                    Shaders::Agreement => together(&object, [draw, &full], stage, start)?,
+                };
+                comparison.merge(part);
+                inputs += pixels;
+            }
         }
         Ok(Outcome::of(inputs, comparison, UNDECIDED_LIMIT_FILTERED))
     }
 }
 
-/// Whether the vertex stage moves the vertices.
-fn is_displaced(draw: &Draw) -> bool {
-    draw.features.relief == Relief::Displacement
+/// One picture against the reference.
+fn alone(drawn: &Drawn, start: Comparison) -> (Comparison, usize) {
+    (judged(&drawn.pixels, start), drawn.pixels.len())
+}
+
+/// The planned picture and the full one against each other.
+fn together(
+    object: &Object<'_>,
+    [planned, full]: [&Draw; 2],
+    stage: Stage,
+    start: Comparison,
+) -> Result<(Comparison, usize), String> {
+    let (ours, theirs) = (object.render(planned, stage)?, object.render(full, stage)?);
+    let there = object.expected_at(planned, stage, &theirs.points)?;
+    let comparison = agreement(&ours.pixels, &theirs.pixels, &there, start);
+    Ok((comparison, theirs.pixels.len()))
+}
+
+/// A hardened surface promises an answer at every pixel.
+fn demanding(draw: &Draw) -> Comparison {
+    match draw.features.form {
+        Form::Hardened => Comparison::demanding_answers(),
+        Form::Published => Comparison::default(),
+    }
 }
 
 /// The same object with every effect on.
@@ -149,84 +171,6 @@ fn everything(scene: &Scene, plan: &Plan, draw: &Draw) -> Draw {
         .unwrap_or_else(|| draw.clone())
 }
 
-/// Every pixel against the reference: the four channels, and whether the alpha test kept it.
-fn judged(pixels: &[Pixel]) -> (Comparison, usize) {
-    let mut comparison = Comparison::default();
-    for pixel in pixels {
-        comparison.item(
-            &pixel.place,
-            &[f32::from(u8::from(pixel.got.is_some()))],
-            &[kept(pixel)],
-        );
-        if let (Some(got), Some(truth)) = (pixel.got, pixel.truth) {
-            let expected: Vec<Expected> = (0..4)
-                .map(|i| Expected {
-                    truth: truth[i],
-                    bound: pixel.bound.color[i].into(),
-                })
-                .collect();
-            comparison.item(&pixel.place, &got, &expected);
-        }
-    }
-    (comparison, pixels.len())
-}
-
-/// 1 where the alpha test keeps the pixel, 0 where it cuts it out.
-fn kept(pixel: &Pixel) -> Expected {
-    let truth = f64::from(u8::from(pixel.truth.is_some()));
-    let bound = Bounded::select(pixel.bound.discarded, Bounded::exact(0.0), Bounded::exact(1.0));
-    Expected {
-        truth,
-        bound: bound.into(),
-    }
-}
-
-/// The planned picture against the one with all effects: each within the sum of both bounds of the other.
-fn agreement(planned: &[Pixel], full: &[Pixel]) -> (Comparison, usize) {
-    let mut comparison = Comparison::default();
-    let mut pairs = 0;
-    let key = |pixel: &Pixel| (pixel.place[0] as u32, pixel.place[1] as u32);
-    let full: BTreeMap<(u32, u32), &Pixel> = full.iter().map(|pixel| (key(pixel), pixel)).collect();
-    for planned in planned {
-        let Some(full) = full.get(&key(planned)) else {
-            continue;
-        };
-        pairs += 1;
-        let decided = |pixel: &Pixel| !matches!(pixel.bound.discarded, Decision::Either { .. });
-        let (Some(got), Some(other)) = (planned.got, full.got) else {
-            let same = planned.got.is_some() == full.got.is_some();
-            let bound = Bounded {
-                forked: !decided(planned) || !decided(full),
-                ..Bounded::exact(1.0)
-            };
-            let bound = if bound.forked {
-                Bounded { error: 1.0, ..bound }
-            } else {
-                bound
-            };
-            comparison.item(
-                &planned.place,
-                &[f32::from(u8::from(same))],
-                &[Expected {
-                    truth: 1.0,
-                    bound: bound.into(),
-                }],
-            );
-            continue;
-        };
-        let expected = |i: usize| {
-            let (a, b) = (planned.bound.color[i], full.bound.color[i]);
-            let bound = Bounded::within(f64::from(other[i]), a.error + b.error).marked(&[a, b]);
-            Expected {
-                truth: f64::from(other[i]),
-                bound: bound.into(),
-            }
-        };
-        comparison.item(&planned.place, &got, &(0..4).map(expected).collect::<Vec<_>>());
-    }
-    (comparison, pairs)
-}
-
 impl Case for SceneCase {
     fn id(&self) -> &CaseId {
         &self.id
@@ -235,7 +179,10 @@ impl Case for SceneCase {
     fn basis(&self) -> Vec<&'static str> {
         match self.shaders {
             Shaders::Planned | Shaders::AllEffects => crate::oracle::BASIS.to_vec(),
-            Shaders::Agreement => vec!["shader with all effects", "accuracy rules at the input"],
+            Shaders::Agreement => vec![
+                "reference f64 of both shaders",
+                "accuracy rules over both shaders' IR",
+            ],
         }
     }
 
@@ -252,7 +199,7 @@ impl Case for SceneCase {
             Shaders::AllEffects => full,
             Shaders::Agreement => [planned, full].concat(),
         };
-        let all = drawn.iter().flat_map(|draw| modules(&draw.features));
+        let all = drawn.iter().flat_map(modules);
         Ok(all.collect::<BTreeSet<_>>().into_iter().collect())
     }
 

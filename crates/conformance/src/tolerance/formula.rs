@@ -4,7 +4,7 @@
 //! joins both results.
 
 use super::{ONE, SMALLEST_NORMAL, ZERO};
-use crate::bounded::vector::{Vec3, add, cross, dot, length, multiply, normalize, scale, subtract};
+use crate::bounded::vector::{Vec3, cross, dot, length, multiply, normalize, scale, subtract};
 use crate::bounded::{Bounded, Decision};
 
 /// Both results of a branch, joined where it can go either way; the side that is never taken is not evaluated.
@@ -59,57 +59,10 @@ pub(super) fn length_of(v: &Vec3) -> Bounded {
     length
 }
 
-pub(crate) fn bitangent(normal: &Vec3, tangent: &[Bounded; 4]) -> Vec3 {
-    scale(tangent[3], &cross(normal, &[tangent[0], tangent[1], tangent[2]]))
-}
-
 pub(super) fn tangent_from_normal([x, y, z]: &Vec3) -> Vec3 {
     let side = Bounded::select(z.less(ZERO), -ONE, ONE);
     let a = -ONE / (side + *z);
     [ONE + side * *x * *x * a, side * (*x * *y * a), -side * *x]
-}
-
-pub(crate) fn lambert(normal: &Vec3, light_dir: &Vec3) -> Bounded {
-    dot(normal, light_dir).saturate()
-}
-
-pub(crate) fn highlight_power(n_dot_h: Bounded, shininess: Bounded) -> Bounded {
-    let base = n_dot_h.saturate();
-    let exponent = shininess.max(ZERO);
-    match base.less(SMALLEST_NORMAL) {
-        Decision::Always => ZERO,
-        Decision::Never => base.pow(exponent),
-        // The base lies between 0 and its upper end, and the power grows with it: from 0 to the power at that end.
-        Decision::Either { nominal } => {
-            let top = Bounded::within(base.high(), 0.0).pow(exponent);
-            let value = if nominal {
-                0.0
-            } else {
-                base.value.powf(exponent.value)
-            };
-            Bounded {
-                forked: true,
-                ..Bounded::between(value, 0.0, top.high())
-            }
-        }
-    }
-}
-
-pub(crate) fn blinn_phong(n: &Vec3, l: &Vec3, v: &Vec3, diffuse: &Vec3, specular: &Vec3, p: Bounded) -> Vec3 {
-    let highlight = highlight_power(dot(n, &normalise(&add(l, v))), p);
-    add(&scale(lambert(n, l), diffuse), &scale(highlight, specular))
-}
-
-pub(crate) fn blinn_phong_published(
-    n: &Vec3,
-    l: &Vec3,
-    v: &Vec3,
-    diffuse: &Vec3,
-    specular: &Vec3,
-    p: Bounded,
-) -> Vec3 {
-    let highlight = lambert(n, &normalize(&add(l, v))).pow(p);
-    add(&scale(lambert(n, l), diffuse), &scale(highlight, specular))
 }
 
 /// P·t₂ − Q·t₁ and Q·s₁ − P·s₂, and the texture area's two products.
@@ -200,28 +153,7 @@ fn with_sign([x, y, z]: Vec3, sign: Bounded) -> [Bounded; 4] {
     [x, y, z, sign]
 }
 
-pub(crate) fn combine_frame(tangent: &Vec3, bitangent: &Vec3, normal: &Vec3, v: &Vec3) -> Vec3 {
-    std::array::from_fn(|i| dot(v, &[tangent[i], bitangent[i], normal[i]]))
-}
-
 pub(super) fn normal_of_slopes(gx: Bounded, gy: Bounded) -> Vec<Bounded> {
     let r = ONE / dot(&[gx, gy, ONE], &[gx, gy, ONE]).max(ONE).sqrt();
     vec![-gx * r, -gy * r, r]
-}
-
-pub(crate) fn light_to_tangent(tangent: &Vec3, bitangent: &Vec3, normal: &Vec3, light: &Vec3) -> Vec3 {
-    [dot(tangent, light), dot(bitangent, light), dot(normal, light)]
-}
-
-pub(crate) fn parallax_offset(uv: &[Bounded; 2], z: Bounded, v: &Vec3) -> [Bounded; 2] {
-    let divisor = v[2].max(Bounded::exact(0.05));
-    [uv[0] + z * v[0] / divisor, uv[1] + z * v[1] / divisor]
-}
-
-pub(crate) fn parallax_offset_published(uv: &[Bounded; 2], z: Bounded, v: &Vec3) -> [Bounded; 2] {
-    [uv[0] + z * v[0] / v[2], uv[1] + z * v[1] / v[2]]
-}
-
-pub(crate) fn parallax_offset_limited(uv: &[Bounded; 2], z: Bounded, v: &Vec3) -> [Bounded; 2] {
-    [uv[0] + z * v[0], uv[1] + z * v[1]]
 }

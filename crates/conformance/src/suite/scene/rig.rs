@@ -15,7 +15,12 @@ use super::upload::{address, mesh, textures};
 use crate::bench::Bench;
 use crate::case::with_causes;
 use crate::module::Module;
+use crate::oracle::stages::{self as oracle, Inputs, Outputs};
 use crate::route::Prepared;
+
+/// The entry points of the surface's modules.
+const VERTEX: &str = "surface_vertex";
+const FRAGMENT: &str = "surface_fragment";
 
 /// A draw with its vertex module and some fragment modules.
 pub(super) struct Rig<'a> {
@@ -46,20 +51,44 @@ impl<'a> Rig<'a> {
         })
     }
 
+    /// What is drawn.
+    pub(super) fn draw(&self) -> &'a Draw {
+        self.draw
+    }
+
+    /// The assembled text of a fragment module.
+    pub(super) fn text(&self, stage: Stage) -> Result<&str, String> {
+        Ok(self.module(stage)?.text())
+    }
+
+    /// The acceptance intervals of a fragment module's outputs.
+    pub(super) fn intervals(&self, stage: Stage, inputs: &Inputs) -> Result<Outputs, String> {
+        let module = self.module(stage)?;
+        let stage = oracle::Stage {
+            module,
+            entry: FRAGMENT,
+            resources: &self.resources(&[&module.shader(FRAGMENT)?]),
+        };
+        stage.fragments(inputs)
+    }
+
     /// The entry point of a fragment module.
     pub(super) fn entry(&self, stage: Stage) -> Result<&Entry, String> {
         Ok(self.fragment(stage)?.entry)
     }
 
-    fn fragment(&self, stage: Stage) -> Result<Shader<'_>, String> {
+    fn module(&self, stage: Stage) -> Result<&Prepared, String> {
         let prepared = self.fragments.get(&stage);
-        let prepared = prepared.ok_or_else(|| format!("{stage:?} was not prepared"))?;
-        prepared.shader("surface_fragment")
+        Ok(prepared.ok_or_else(|| format!("{stage:?} was not prepared"))?)
+    }
+
+    fn fragment(&self, stage: Stage) -> Result<Shader<'_>, String> {
+        self.module(stage)?.shader(FRAGMENT)
     }
 
     /// The mesh with one of the fragment modules.
     pub(super) fn with(&self, stage: Stage, blend: Blend, depth: Depth) -> Result<RunnerDraw<'_>, String> {
-        let (vertex, fragment) = (self.vertex.shader("surface_vertex")?, self.fragment(stage)?);
+        let (vertex, fragment) = (self.vertex.shader(VERTEX)?, self.fragment(stage)?);
         Ok(RunnerDraw {
             vertex,
             fragment,

@@ -6,75 +6,45 @@ use bossage_reference::cube::Seams;
 use bossage_reference::dot3_single_pass::Normaliser;
 use bossage_reference::environment_bump::Environment;
 use bossage_reference::normalisation_cube_map::{Depth, Map};
-use bossage_reference::surface::{self as reference, Light, Material, Pass, Relief, Shading, Viewer};
+use bossage_reference::surface::{Light, Material, Pass, Relief, Shading, Viewer};
 use bossage_reference::{Form as TruthForm, texture::Texture};
 use bossage_scene::{Draw, Texels, TextureShape};
 use bossage_shaders::{
     Albedo, Alpha, FeatureSet, Form, Lights, NormalSource, Normaliser as Normalises, Relief as Feature,
-    Shading as Kind,
+    Shading as Kind, Stage,
 };
 use glam::{DVec2, DVec3, DVec4};
 
-use crate::tolerance::surface::Interpolants;
-use crate::tolerance::texture::Storage;
-
-/// The textures that the draw's features read, decoded.
-pub(super) struct Maps {
-    pub(super) albedo: Option<(Texture, Storage)>,
-    pub(super) normal: Option<(Texture, Storage)>,
-    pub(super) height: Option<(Texture, Storage)>,
-}
-
-impl Maps {
-    pub(super) fn new(draw: &Draw) -> Self {
-        let features = draw.features.canonical();
-        let read = |name: &str, wanted: bool| if wanted { decoded(draw, name) } else { None };
-        Self {
-            albedo: read("albedo_map", features.albedo == Albedo::Map),
-            normal: read("normal_map", features.normal == NormalSource::Map),
-            height: read(
-                "height_map",
-                features.relief.shifts() || features.shading == Kind::Emboss,
-            ),
-        }
-    }
-}
-
 /// Level 0 of a plane as the sampler returns it.
-fn decoded(draw: &Draw, name: &str) -> Option<(Texture, Storage)> {
+fn plane(draw: &Draw, name: &str) -> Option<Texture> {
     let texture = draw.textures.get(name)?;
     let level = texture
         .levels
         .first()
         .filter(|_| texture.shape == TextureShape::Plane)?;
-    let (texels, storage) = texels(&level.texels);
-    let (width, height) = (level.width, level.height);
-    Some((
-        Texture {
-            width,
-            height,
-            texels,
-        },
-        storage,
-    ))
+    Some(Texture {
+        width: level.width,
+        height: level.height,
+        texels: texels(&level.texels),
+    })
 }
 
-fn texels(stored: &Texels) -> (Vec<DVec4>, Storage) {
+fn texels(stored: &Texels) -> Vec<DVec4> {
     let four = |texel: &[f32; 4]| DVec4::from_array(texel.map(f64::from));
     match stored {
         Texels::Rgba8Unorm(texels) => {
             let unorm = |texel: &[u8; 4]| DVec4::from_array(texel.map(|code| f64::from(code) / 255.0));
-            (texels.iter().map(unorm).collect(), Storage::Unorm8)
+            texels.iter().map(unorm).collect()
         }
         Texels::Rgba16Unorm(texels) => {
             let unorm = |texel: &[u16; 4]| DVec4::from_array(texel.map(|code| f64::from(code) / 65535.0));
-            (texels.iter().map(unorm).collect(), Storage::Float32)
+            texels.iter().map(unorm).collect()
         }
         Texels::R32Float(texels) => {
             let one = |value: &f32| DVec4::new(f64::from(*value), 0.0, 0.0, 1.0);
-            (texels.iter().map(one).collect(), Storage::Float32)
+            texels.iter().map(one).collect()
         }
-        Texels::Rgba32Float(texels) => (texels.iter().map(four).collect(), Storage::Float32),
+        Texels::Rgba32Float(texels) => texels.iter().map(four).collect(),
     }
 }
 
@@ -84,24 +54,27 @@ pub(super) fn uniform<const N: usize>(draw: &Draw, name: &str) -> [f32; N] {
     values.first_chunk::<N>().copied().unwrap_or([0.0; N])
 }
 
-/// The f64 material.
-pub(super) fn material(draw: &Draw, maps: &Maps) -> Material {
+/// The f64 material, shaded as that fragment stage does it. It has the maps that the draw's features read.
+pub(super) fn material(draw: &Draw, stage: Stage) -> Material {
     let features = draw.features.canonical();
-    let texture = |map: &Option<(Texture, Storage)>| map.as_ref().map(|(texture, _)| texture.clone());
+    let map = |name: &str, wanted: bool| if wanted { plane(draw, name) } else { None };
     let [alpha_cutoff] = uniform(draw, "material.alpha_cutoff");
     let [shininess] = uniform(draw, "material.shininess");
     let specular = || vector(uniform(draw, "material.specular"));
     Material {
         albedo: DVec4::from_array(uniform(draw, "material.albedo").map(f64::from)),
-        albedo_map: texture(&maps.albedo),
-        normal_map: texture(&maps.normal),
+        albedo_map: map("albedo_map", features.albedo == Albedo::Map),
+        normal_map: map("normal_map", features.normal == NormalSource::Map),
         normal_decode: DVec2::from_array(uniform(draw, "material.normal_decode").map(f64::from)),
-        height_map: texture(&maps.height),
+        height_map: map(
+            "height_map",
+            features.relief.shifts() || features.shading == Kind::Emboss,
+        ),
         relief: relief(draw, &features),
         ambient: vector(uniform(draw, "material.ambient")),
         specular: features.specular.then(specular),
         shininess: f64::from(shininess),
-        shading: shading(draw, &features),
+        shading: shading(draw, &features, stage),
         reflection: features.environment.then(|| (environment(draw), specular())),
         alpha_cutoff: (features.alpha == Alpha::Mask).then_some(f64::from(alpha_cutoff)),
         edge: draw.edge,
@@ -138,8 +111,8 @@ fn relief(draw: &Draw, features: &FeatureSet) -> Relief {
     }
 }
 
-/// The shading of the fragment stage: of the first pass, where there are two.
-fn shading(draw: &Draw, features: &FeatureSet) -> Shading {
+/// The shading of a fragment stage: of one of the passes, where there are two.
+fn shading(draw: &Draw, features: &FeatureSet, stage: Stage) -> Shading {
     let normaliser = match (features.normaliser, form(draw)) {
         (Normalises::Cube, _) => Normaliser::Cube(normalisation(draw)),
         (Normalises::Arithmetic, TruthForm::Published) => Normaliser::Arithmetic,
@@ -160,7 +133,10 @@ fn shading(draw: &Draw, features: &FeatureSet) -> Shading {
         },
         Kind::Dot3TwoPass => Shading::Dot3 {
             normaliser,
-            pass: Pass::First,
+            pass: match stage {
+                Stage::SecondPass => Pass::Second,
+                Stage::Vertex | Stage::Fragment | Stage::FragmentCapture => Pass::First,
+            },
         },
     }
 }
@@ -190,7 +166,7 @@ fn environment(draw: &Draw) -> Environment {
         .and_then(|map| map.levels.first());
     Environment {
         size: level.map_or(1, |level| level.width),
-        texels: level.map_or_else(|| vec![DVec4::W; 6], |level| texels(&level.texels).0),
+        texels: level.map_or_else(|| vec![DVec4::W; 6], |level| texels(&level.texels)),
         seams: Seams::Seamless,
     }
 }
@@ -245,16 +221,6 @@ fn one_of_many(v: &[f32]) -> Light {
             position: place,
             radiance,
         }
-    }
-}
-
-/// The interpolants in f64.
-pub(super) fn doubles(at: &Interpolants) -> reference::Interpolants {
-    reference::Interpolants {
-        position: vector(at.position),
-        normal: vector(at.normal),
-        tangent: DVec4::from_array(at.tangent.map(f64::from)),
-        uv: DVec2::from_array(at.uv.map(f64::from)),
     }
 }
 

@@ -19,14 +19,14 @@ use bossage_assets::normal_mips::NormalMips;
 use bossage_assets::normalisation_cube_map::{Depth as Bits, NormalisationCubeMap};
 use bossage_assets::{ColorMap, NormalCodec, NormalMap};
 use bossage_reference::dot3_two_pass::{Blender, LARGEST_DIFFERENCE_CODES, Target, first_pass, second_pass};
-use bossage_reference::surface::{Fragment, Interpolants, Pass, Shading as TruthShading, shade};
+use bossage_reference::surface::{Fragment, Interpolants, shade};
 use bossage_runner::{Blend, Depth, Picture, RenderTarget, TimedJob, Timing, TimingOptions};
 use bossage_scene::{Draw, Level, NormalSource, Normaliser, Scene, Texels, Texture, TextureShape};
 use bossage_shaders::{FeatureSet, Shading, Stage};
 use glam::{DVec2, DVec3, DVec4};
 
 use super::rig::{Rig, job, render};
-use super::truth::{Maps, material, view};
+use super::truth::{material, view};
 use crate::bench::Bench;
 use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
@@ -485,14 +485,13 @@ struct Truth<'a> {
 
 impl<'a> Truth<'a> {
     fn new(one: &'a Draw, two: &'a Draw, allowance: Allowance) -> Self {
-        let first = material(two, &Maps::new(two));
-        let mut second = first.clone();
-        if let TruthShading::Dot3 { pass, .. } = &mut second.shading {
-            *pass = Pass::Second;
-        }
         Self {
             one,
-            materials: [material(one, &Maps::new(one)), first, second],
+            materials: [
+                material(one, Stage::Fragment),
+                material(two, Stage::Fragment),
+                material(two, Stage::SecondPass),
+            ],
             allowance,
         }
     }

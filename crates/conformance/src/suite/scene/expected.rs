@@ -1,0 +1,112 @@
+//! What the pixels of a draw should be: truth and acceptance interval at each captured point.
+//!
+//! Truth is the reference's surface in f64, of the draw's numbers; the interval comes from the fragment stage's own IR. They know nothing
+//! of each other. Both are computed once for a module's text, a draw and its points: routes that rasterise alike share them.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use bossage_reference::surface::{Fragment as Truth, shade};
+use bossage_scene::Draw;
+use bossage_shaders::{FeatureSet, Stage};
+use rayon::prelude::*;
+
+use super::interpolants::Interpolants;
+use super::rig::Rig;
+use super::truth;
+use crate::bound::Bound;
+
+/// What one fragment should be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fragment {
+    /// The colour; `None` where the reference discards.
+    pub(super) truth: Option<[f64; 4]>,
+    /// What an implementation may return, if it keeps the fragment.
+    pub(super) color: [Bound; 4],
+    /// Whether it may keep it: 1, 0, or either.
+    pub(super) kept: Bound,
+}
+
+/// Whose points a draw is judged at: its own picture's, or those of another picture of the same object.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Points {
+    Own,
+    Others,
+}
+
+/// A draw by its place among a case's draws, since a name may occur twice.
+pub(super) type Place = (usize, Points);
+
+type Key = (Place, FeatureSet, Stage);
+
+#[derive(Debug)]
+struct Made {
+    text: String,
+    points: Vec<Interpolants>,
+    fragments: Arc<Vec<Fragment>>,
+}
+
+/// The expectations of a case's draws, each as last asked for.
+#[derive(Debug, Default)]
+pub(super) struct Expectations(Mutex<BTreeMap<Key, Made>>);
+
+impl Expectations {
+    /// What the fragments of a draw should be, point by point.
+    ///
+    /// # Errors
+    /// What the evaluator says.
+    pub(super) fn of(
+        &self,
+        place: Place,
+        rig: &Rig<'_>,
+        stage: Stage,
+        points: &[Interpolants],
+    ) -> Result<Arc<Vec<Fragment>>, String> {
+        let key = (place, rig.draw().features, stage);
+        let text = rig.text(stage)?;
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(made) = lock().get(&key)
+            && made.text == text
+            && made.points == points
+        {
+            return Ok(Arc::clone(&made.fragments));
+        }
+        let fragments = Arc::new(fragments(rig, stage, points)?);
+        let made = Made {
+            text: text.to_owned(),
+            points: points.to_vec(),
+            fragments: Arc::clone(&fragments),
+        };
+        lock().insert(key, made);
+        Ok(fragments)
+    }
+}
+
+/// Both oracles at each point.
+pub(super) fn fragments(
+    rig: &Rig<'_>,
+    stage: Stage,
+    points: &[Interpolants],
+) -> Result<Vec<Fragment>, String> {
+    let intervals = rig.intervals(stage, &Interpolants::inputs(points))?;
+    let truths = truths(rig.draw(), stage, points);
+    let both = truths.into_iter().enumerate().map(|(at, truth)| {
+        Ok(Fragment {
+            truth,
+            color: intervals.location(0, at)?,
+            kept: intervals.kept(at),
+        })
+    });
+    both.collect()
+}
+
+/// The reference's colours; `None` where it discards.
+fn truths(draw: &Draw, stage: Stage, points: &[Interpolants]) -> Vec<Option<[f64; 4]>> {
+    let material = truth::material(draw, stage);
+    let (viewer, lights, form) = truth::view(draw);
+    let shaded = |at: &Interpolants| match shade(&material, &lights, &viewer, &at.exact(), form) {
+        Truth::Color(color) => Some(color.to_array()),
+        Truth::Discarded => None,
+    };
+    points.par_iter().map(shaded).collect()
+}
