@@ -1,8 +1,8 @@
 //! What may stay undecided, and the tolerances that are still written by hand.
 //!
 //! The tolerance of a probe is no number of ours: it is the acceptance interval that `bossage-bounds` evaluates from the shader's
-//! own IR ([`crate::oracle::bounds`]). The rows below serve the bakes, the meshes and the surfaces, which read buffers and
-//! textures: each is the technique's documented algorithm carried out over [`Bounded`] numbers at the very input that is judged.
+//! own IR ([`crate::oracle::bounds`]), and so is that of a whole surface. The rows below serve the bakes and the meshes, which read
+//! buffers: each is the technique's documented algorithm carried out over [`Bounded`] numbers at the very input that is judged.
 //! No number was chosen by looking at outputs.
 
 use crate::bounded::Bounded;
@@ -26,9 +26,9 @@ pub fn undecided_limit(function: &str) -> f64 {
     }
 }
 
-/// The same for pixels whose textures the driver filters: an alpha test near its cutoff is undecided within the filter's
-/// allowance, which is much wider than rounding, so more pixels may be.
-pub const UNDECIDED_LIMIT_FILTERED: f64 = 0.05;
+/// The same for pixels whose textures the driver filters: an alpha test near its cutoff, or a highlight near its end, is undecided
+/// within the filter's allowance, which is much wider than rounding, so more pixels may be.
+pub const UNDECIDED_LIMIT_FILTERED: f64 = 0.03;
 
 /// Bits that a sampler keeps of a filter weight: what Vulkan's `subTexelPrecisionBits` is on the software drivers, and the
 /// least that Direct3D allows.
@@ -134,7 +134,7 @@ pub const TABLE: &[Tolerance] = &[
     ),
 ];
 
-/// The bounds that the surface's analysis shares with the probes'.
-pub(crate) mod formula;
+/// The algorithms of the rows.
+mod formula;
 
 use formula::*;

@@ -1,4 +1,4 @@
-//! The techniques' algorithms over bounded numbers, shared by the rows of the table and by the surface's bound.
+//! The techniques' algorithms over bounded numbers, one a row of the table.
 //!
 //! Each follows the algorithm that the technique's documentation states, with its branches: a branch that can go either way
 //! joins both results.
@@ -8,7 +8,7 @@ use crate::bounded::vector::{Vec3, cross, dot, length, multiply, normalize, scal
 use crate::bounded::{Bounded, Decision};
 
 /// Both results of a branch, joined where it can go either way; the side that is never taken is not evaluated.
-pub(crate) fn branch<const N: usize>(
+pub(super) fn branch<const N: usize>(
     condition: Decision,
     yes: impl FnOnce() -> [Bounded; N],
     no: impl FnOnce() -> [Bounded; N],
@@ -23,11 +23,11 @@ pub(crate) fn branch<const N: usize>(
     }
 }
 
-pub(crate) fn largest_component(v: &Vec3) -> Bounded {
+pub(super) fn largest_component(v: &Vec3) -> Bounded {
     v[0].abs().max(v[1].abs()).max(v[2].abs())
 }
 
-pub(crate) fn normalise(v: &Vec3) -> Vec3 {
+pub(super) fn normalise(v: &Vec3) -> Vec3 {
     let largest = largest_component(v);
     branch(
         largest.less(SMALLEST_NORMAL),

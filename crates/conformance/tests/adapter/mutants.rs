@@ -1,7 +1,8 @@
 //! Negative controls: a library with one fault put into it must fail, and exactly the faults below are put into it.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use bossage_conformance::suite::scene::files_in;
 use bossage_conformance::{Route, Selection};
 use bossage_shaders::Library;
 
@@ -183,35 +184,91 @@ const MUTANTS: &[Mutant] = &[
         file: "entry/surface_fragment.wesl",
         from: "var color = material.ambient.rgb * albedo.rgb;",
         to: "var color = 1.01 * material.ambient.rgb * albedo.rgb;",
-        filter: "scene/planned",
+        filter: "scene/planned:scene=brick_wall",
     },
     Mutant {
         what: "the surface's normal map not decoded",
         file: "entry/surface_fragment.wesl",
         from: "normal_texel * material.normal_decode.x + material.normal_decode.y;",
         to: "normal_texel * material.normal_decode.x;",
-        filter: "scene/planned",
+        filter: "scene/planned:scene=brick_wall",
     },
     Mutant {
         what: "the surface's relief turned round",
         file: "entry/surface_fragment.wesl",
         from: "let z = elevation(height,",
         to: "let z = -elevation(height,",
-        filter: "scene/planned",
+        filter: "scene/planned:scene=brick_wall",
     },
     Mutant {
         what: "a highlight dropped that the scene calls for",
         file: "entry/surface_fragment.wesl",
         from: "    color += light.radiance.rgb\n        * blinn_phong(normal, light_dir, view_dir, albedo.rgb, material.specular.rgb, material.shininess);",
         to: "    color += light.radiance.rgb * (saturate(dot(normal, light_dir)) * albedo.rgb);",
-        filter: "scene/agreement",
+        filter: "scene/agreement:scene=brick_wall",
     },
     Mutant {
         what: "a normal map dropped that the scene calls for",
         file: "entry/surface_fragment.wesl",
         from: "    @elif(unit_normal && normal_map)\n    let normal = normalise(combine_frame(",
         to: "    @elif(unit_normal && normal_map && !many_lights)\n    let normal = normalise(interpolated.normal);\n    @elif(unit_normal && normal_map)\n    let normal = normalise(combine_frame(",
-        filter: "scene/agreement",
+        filter: "scene/agreement:scene=brick_wall",
+    },
+    Mutant {
+        what: "a highlight of many lights dropped",
+        file: "entry/surface_fragment.wesl",
+        from: "        @if(specular)\n        color += lights.items[index].radiance.rgb\n            * blinn_phong(normal, light_dir, view_dir, albedo.rgb, material.specular.rgb, material.shininess);",
+        to: "        @if(specular)\n        color += lights.items[index].radiance.rgb * (saturate(dot(normal, light_dir)) * albedo.rgb);",
+        filter: "scene/planned:scene=gallery",
+    },
+    Mutant {
+        what: "red and green of a highlight swapped",
+        file: "entry/surface_fragment.wesl",
+        from: "            * blinn_phong(normal, light_dir, view_dir, albedo.rgb, material.specular.rgb, material.shininess);",
+        to: "            * blinn_phong(normal, light_dir, view_dir, albedo.rgb, material.specular.grb, material.shininess);",
+        filter: "scene/planned:scene=gallery",
+    },
+    Mutant {
+        what: "a single point light moved",
+        file: "entry/surface_fragment.wesl",
+        from: "let light_dir = normalise(light.vector.xyz - interpolated.position);",
+        to: "let light_dir = normalise(light.vector.xyz + vec3f(0.0, 0.1, 0.0) - interpolated.position);",
+        filter: "scene/planned:scene=bump_and_parallax",
+    },
+    Mutant {
+        what: "the ambient light of a slope relief not occluded",
+        file: "entry/surface_fragment.wesl",
+        from: "var color = material.ambient.rgb * albedo.rgb * ambient_occlusion;",
+        to: "var color = material.ambient.rgb * albedo.rgb;",
+        filter: "scene/planned:scene=parallax_occlusion",
+    },
+    Mutant {
+        what: "a second height read from the wrong side",
+        file: "entry/surface_fragment.wesl",
+        from: "emboss_uv(uv, light_dir_ts, material.emboss_step)",
+        to: "emboss_uv(uv, light_dir_ts, -material.emboss_step)",
+        filter: "scene/planned:scene=emboss",
+    },
+    Mutant {
+        what: "a mirror turned over",
+        file: "entry/surface_fragment.wesl",
+        from: "surface_sampler, reflected_dir, 0.0)",
+        to: "surface_sampler, -reflected_dir, 0.0)",
+        filter: "scene/planned:scene=environment_bump",
+    },
+    Mutant {
+        what: "the ambient light of dot3 left out",
+        file: "entry/surface_fragment.wesl",
+        from: "let color = saturate(material.ambient.rgb + dot3_single_pass(",
+        to: "let color = saturate(dot3_single_pass(",
+        filter: "scene/planned:scene=dot3_cube",
+    },
+    Mutant {
+        what: "the light of the first of two passes left white",
+        file: "entry/surface_fragment.wesl",
+        from: "dot3_first_pass(normal_color, light_color) * light.radiance.rgb",
+        to: "dot3_first_pass(normal_color, light_color)",
+        filter: "scene/planned:scene=dot3_cube_two_pass",
     },
 ];
 
@@ -230,13 +287,10 @@ fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
 }
 
 fn selection(filter: &str) -> Selection {
-    let scenes: Vec<PathBuf> = ["brick_wall.toml"]
-        .map(|scene| root().join("examples").join(scene))
-        .to_vec();
     Selection {
         filter: Some(filter.to_owned()),
         routes: vec![Route::Wgsl],
-        scenes,
+        scenes: files_in(&root().join("examples")).expect("the examples are there"),
         ..Selection::default()
     }
 }
