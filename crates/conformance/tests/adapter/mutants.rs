@@ -238,8 +238,8 @@ const MUTANTS: &[Mutant] = &[
     Mutant {
         what: "the ambient light of a slope relief not occluded",
         file: "entry/surface_fragment.wesl",
-        from: "var color = material.ambient.rgb * albedo.rgb * ambient_occlusion;",
-        to: "var color = material.ambient.rgb * albedo.rgb;",
+        from: "wrap_lambert_factor(ambient_occlusion, material.ambient.r, bent_normal, light_dir);",
+        to: "wrap_lambert_factor(1.0, material.ambient.r, bent_normal, light_dir);",
         filter: "scene/planned:scene=parallax_occlusion",
     },
     Mutant {
@@ -257,17 +257,17 @@ const MUTANTS: &[Mutant] = &[
         filter: "scene/planned:scene=environment_bump",
     },
     Mutant {
-        what: "the ambient light of dot3 left out",
+        what: "a normalisation cube map read the other way round",
         file: "entry/surface_fragment.wesl",
-        from: "let color = saturate(material.ambient.rgb + dot3_single_pass(",
-        to: "let color = saturate(dot3_single_pass(",
+        from: "surface_sampler, light_ts, 0.0).rgb;",
+        to: "surface_sampler, -light_ts, 0.0).rgb;",
         filter: "scene/planned:scene=dot3_cube",
     },
     Mutant {
-        what: "the light of the first of two passes left white",
+        what: "the first of two passes without its normal map",
         file: "entry/surface_fragment.wesl",
-        from: "dot3_first_pass(normal_color, light_color) * light.radiance.rgb",
-        to: "dot3_first_pass(normal_color, light_color)",
+        from: "dot3_first_pass(normal_color, light_color)",
+        to: "dot3_first_pass(vec3f(0.5, 0.5, 1.0), light_color)",
         filter: "scene/planned:scene=dot3_cube_two_pass",
     },
 ];
