@@ -26,6 +26,7 @@ pub mod bounded;
 pub mod case;
 pub mod case_id;
 pub mod compare;
+mod dispatch;
 pub mod environment;
 mod error;
 pub mod generate;

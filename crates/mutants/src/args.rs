@@ -45,6 +45,9 @@ pub(crate) struct Args {
     /// Judges everything anew instead of taking over the verdicts of an earlier run of the same program on the same sources.
     #[arg(long)]
     pub(crate) fresh: bool,
+    /// Leaves out the cases that render the examples' scenes: much quicker, and blind to how the surface uses what it uses.
+    #[arg(long)]
+    pub(crate) without_scenes: bool,
     /// Serves as a child process.
     #[arg(long, hide = true)]
     pub(crate) worker: bool,

@@ -74,15 +74,20 @@ pub fn scenes_folder() -> PathBuf {
 }
 
 impl Ground {
-    /// Lists the cases, the examples' scenes included, and assembles every module that they use.
+    /// Lists the cases, those of the examples' scenes only where they are asked for, and assembles every module that they use.
     ///
     /// # Errors
     /// When the library or a scene is faulty as it is.
-    pub fn new(sources: Sources) -> Result<Self, Error> {
+    pub fn new(sources: Sources, scenes: bool) -> Result<Self, Error> {
         let copy = sources.copy()?;
         let library = Library::from_dir(copy.path()).map_err(|error| Error::Library(error.to_string()))?;
+        let scenes = if scenes {
+            files_in(&scenes_folder())?
+        } else {
+            Vec::new()
+        };
         let selection = Selection {
-            scenes: files_in(&scenes_folder())?,
+            scenes,
             ..Selection::default()
         };
         let mut cases: Vec<Standing> = selection

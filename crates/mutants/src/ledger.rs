@@ -85,7 +85,11 @@ impl Ledger {
 }
 
 /// A hash of everything that verdicts depend on.
-pub(crate) fn state(sources: &Sources, scenes: &Path, adapter: &AdapterInfo) -> Result<String, Error> {
+pub(crate) fn state(
+    sources: &Sources,
+    scenes: Option<&Path>,
+    adapter: &AdapterInfo,
+) -> Result<String, Error> {
     let mut hash = Sha256::new();
     let program = std::env::current_exe().map_err(|source| Error::Read {
         path: PathBuf::from("this program"),
@@ -93,7 +97,10 @@ pub(crate) fn state(sources: &Sources, scenes: &Path, adapter: &AdapterInfo) -> 
     })?;
     part(&mut hash, &read(&program)?);
     part(&mut hash, format!("{adapter:?}").as_bytes());
-    folder(&mut hash, scenes)?;
+    match scenes {
+        Some(scenes) => folder(&mut hash, scenes)?,
+        None => part(&mut hash, b"without scenes"),
+    }
     for (file, text) in &sources.files {
         part(&mut hash, file.as_bytes());
         part(&mut hash, text.as_bytes());

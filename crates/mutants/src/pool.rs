@@ -34,6 +34,8 @@ pub(crate) struct Pool<'a> {
     pub(crate) folder: &'a Path,
     /// The adapter's name; any when `None`.
     pub(crate) adapter: Option<&'a str>,
+    /// Whether the examples' scenes are rendered.
+    pub(crate) scenes: bool,
     /// How many at a time, at least one.
     pub(crate) jobs: usize,
 }
@@ -151,6 +153,9 @@ impl Worker {
         let mut command = Command::new(&pool.program);
         command.args(&pool.arguments);
         command.arg("--worker").arg("--shader-dir").arg(pool.folder);
+        if !pool.scenes {
+            command.arg("--without-scenes");
+        }
         if let Some(adapter) = pool.adapter {
             command.args(["--adapter", adapter]);
         }
@@ -343,6 +348,7 @@ mod tests {
             arguments: vec![script],
             folder: folder.path(),
             adapter: None,
+            scenes: true,
             jobs: 1,
         };
         let mut fates = Vec::new();

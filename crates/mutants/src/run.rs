@@ -39,7 +39,8 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     let adapter = selector(&args);
     if args.worker {
         // A parent that is gone needs no answer.
-        return worker::serve(&args.shader_dir(), &adapter).map_or(ExitCode::FAILURE, |()| ExitCode::SUCCESS);
+        return worker::serve(&args.shader_dir(), !args.without_scenes, &adapter)
+            .map_or(ExitCode::FAILURE, |()| ExitCode::SUCCESS);
     }
     match command(&args, &adapter) {
         Ok(true) => ExitCode::SUCCESS,
@@ -86,7 +87,7 @@ fn command(args: &Args, adapter: &AdapterSelector) -> Result<bool, Error> {
     let fates = fates(args, &info, &sources, &mutants)?;
     let report = Report::new(
         info.to_string(),
-        part.is_whole(),
+        part.is_whole() && !args.without_scenes,
         &mutants,
         fates,
         &list,
@@ -100,9 +101,10 @@ fn command(args: &Args, adapter: &AdapterSelector) -> Result<bool, Error> {
 }
 
 fn fates(args: &Args, info: &AdapterInfo, sources: &Sources, mutants: &[Mutant]) -> Result<Vec<Fate>, Error> {
+    let scenes = (!args.without_scenes).then(scenes_folder);
     let ledger = Ledger::open(
         &ledger_folder(),
-        &state(sources, &scenes_folder(), info)?,
+        &state(sources, scenes.as_deref(), info)?,
         args.fresh,
     )?;
     let mut fates: Vec<Option<Fate>> = mutants
@@ -127,6 +129,7 @@ fn fates(args: &Args, info: &AdapterInfo, sources: &Sources, mutants: &[Mutant])
             arguments: Vec::new(),
             folder: copy.path(),
             adapter: Some(&info.name),
+            scenes: !args.without_scenes,
             jobs: jobs(args),
         };
         let mut watch = Watch::new(asked.len());

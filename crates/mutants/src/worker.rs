@@ -44,8 +44,8 @@ const MUTANTS_A_DEVICE: usize = 100;
 ///
 /// # Errors
 /// When standard output is closed.
-pub(crate) fn serve(folder: &Path, adapter: &AdapterSelector) -> std::io::Result<()> {
-    match judged(folder, adapter) {
+pub(crate) fn serve(folder: &Path, scenes: bool, adapter: &AdapterSelector) -> std::io::Result<()> {
+    match judged(folder, scenes, adapter) {
         Ok(()) => Ok(()),
         Err(Stop::Closed(error)) => Err(error),
         Err(Stop::Broken(error)) => say(&Said::Broken(error.to_string())),
@@ -69,10 +69,10 @@ impl From<std::io::Error> for Stop {
     }
 }
 
-fn judged(folder: &Path, adapter: &AdapterSelector) -> Result<(), Stop> {
+fn judged(folder: &Path, scenes: bool, adapter: &AdapterSelector) -> Result<(), Stop> {
     let sources = Sources::read(folder)?;
     let mutants = generate::mutants(&sources)?;
-    let ground = Ground::new(sources)?;
+    let ground = Ground::new(sources, scenes)?;
     let open = || Device::open(adapter).map_err(Error::Adapter);
     let mut device = open()?;
     say(&Said::Ready)?;

@@ -19,6 +19,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use bossage_bounds::Program;
 use bossage_runner::{AdapterInfo, Code, Shader};
 use bossage_shaders::AssembledShader;
+use bossage_translate::manifest::Entry;
 use bossage_translate::{Manifest, Source};
 use serde::Serialize;
 
@@ -176,15 +177,22 @@ impl Prepared {
         Ok(program)
     }
 
+    /// What the manifest says of the entry point of that name.
+    ///
+    /// # Errors
+    /// When it lacks it.
+    pub fn entry(&self, name: &str) -> Result<&Entry, String> {
+        self.manifest
+            .entry(name)
+            .ok_or_else(|| format!("the manifest has no entry point `{name}`"))
+    }
+
     /// The entry point of that name, ready to run.
     ///
     /// # Errors
     /// When the module lacks it.
     pub fn shader(&self, entry: &str) -> Result<Shader<'_>, String> {
-        let described = self
-            .manifest
-            .entry(entry)
-            .ok_or_else(|| format!("the manifest has no entry point `{entry}`"))?;
+        let described = self.entry(entry)?;
         let found = self.code.iter().find(|(name, _)| name == entry);
         let (_, text) = found.ok_or_else(|| format!("no code was made for entry point `{entry}`"))?;
         let code = match text {

@@ -1,26 +1,31 @@
 //! Bake cases: a normal map made by a compute kernel against its twin on the CPU, byte for byte, and both against the f64
 //! reference.
 //!
-//! A byte is a step function of the normal. Where the bound of what is truncated holds no whole number, exactly one byte is
-//! allowed and the twins are equal. Where it does, the two neighbours are allowed, and twins that differ there are counted: the
-//! rules leave the direction of rounding open.
+//! What is allowed comes from the kernel's own IR over acceptance intervals ([`crate::dispatch`]). A byte is a step function of the
+//! normal: where the interval of what is truncated holds no whole number, exactly one byte is allowed and the twins are equal.
+//! Where it does, the neighbours are allowed, and twins that differ there are counted: the rules leave the direction of rounding
+//! open.
+
+use std::collections::BTreeMap;
 
 use bossage_assets::height_to_normal::{self, Bake};
 use bossage_assets::{EdgeMode, Error, HeightField, NormalCodec, NormalMap, height_to_normal_forward};
 use bossage_reference as reference;
-use bossage_runner::{BufferData, ComputeJob, Resources, TextureData};
+use bossage_runner::{BufferData, Resources, TextureData};
 use bossage_shaders::{Form, Kernel, Technique};
 use glam::{DVec2, DVec3};
 use rand::RngExt;
 
 use crate::bench::Bench;
-use crate::bounded::Bounded;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
+use crate::dispatch::{Dispatch, Kept, byte_bounds};
 use crate::generate::random::stream;
 use crate::module::Module;
-use crate::tolerance;
+use crate::oracle;
+use crate::route::Prepared;
+use crate::tolerance::UNDECIDED_LIMIT;
 
 /// Elevation of h = 1 in UV units along u and v, for all fields here.
 const HEIGHT_SCALE: [f32; 2] = [0.08, 0.05];
@@ -34,6 +39,7 @@ struct BakeCase {
     field: HeightField,
     edge: EdgeMode,
     codec: NormalCodec,
+    expected: Kept<Vec<[Expected; 4]>>,
 }
 
 /// The fields by name: rough and smooth, with sides that are no multiples of a workgroup, and the smallest there are.
@@ -108,6 +114,7 @@ impl BakeCase {
             field,
             edge,
             codec,
+            expected: Kept::default(),
         }
     }
 
@@ -144,114 +151,75 @@ impl BakeCase {
         ])
     }
 
-    fn texels(&self, bench: &Bench<'_>) -> Result<Vec<[u8; 4]>, String> {
-        let kernel = self.kernel;
-        let module = bench.module(&Module::Kernel(kernel))?;
-        let texture = TextureData::r32f(self.field.width, self.field.height, &self.field.texels);
+    fn dispatch<'a>(&'a self, name: &'a str, texture: &'a TextureData) -> Result<Dispatch<'a>, String> {
         let mut resources = Resources::default();
         resources
             .uniforms
             .extend(self.uniforms().map_err(|error| with_causes(&error))?);
-        resources.textures.insert("height_map".to_owned(), &texture);
-        resources.buffers.insert(
-            "texels".to_owned(),
-            BufferData::Output(4 * self.field.texels.len()),
-        );
-        let [x, y, _] = kernel.workgroup_size();
-        let workgroups = [self.field.width.div_ceil(x), self.field.height.div_ceil(y), 1];
-        let name = self.id.to_string();
-        let job = ComputeJob {
-            name: &name,
-            shader: module.shader(kernel.entry())?,
+        resources.textures.insert("height_map".to_owned(), texture);
+        let bytes = 4 * self.field.texels.len();
+        resources
+            .buffers
+            .insert("texels".to_owned(), BufferData::Output(bytes));
+        Ok(Dispatch {
+            name,
+            kernel: self.kernel,
             resources,
-            workgroups,
-        };
-        let output = job.run(bench.device).map_err(|error| with_causes(&error))?;
-        Ok(output.words("texels").into_iter().map(u32::to_le_bytes).collect())
+            invocations: [self.field.width, self.field.height, 1],
+        })
     }
 
-    /// What the bytes of a texel should be.
-    fn expected(&self, x: u32, y: u32) -> Result<[Expected; 4], Error> {
-        if self.kernel == Kernel::HeightToNormalForwardPublished {
-            return Ok(self.expected_published(x, y));
-        }
-        let bake = self.bake()?;
-        let h = |dx: i64, dy: i64| {
-            let (i, j) = (i64::from(x) + dx, i64::from(y) + dy);
-            self.field.texel(
-                self.edge.resolve(i, self.field.width),
-                self.edge.resolve(j, self.field.height),
-            )
+    /// What the bytes of each texel should be.
+    fn expectations(&self, dispatch: &Dispatch<'_>, module: &Prepared) -> Result<Vec<[Expected; 4]>, String> {
+        let mut left = dispatch.accepted(module, &BTreeMap::new())?;
+        let words = left.remove("texels").ok_or("the kernel writes no texels")?;
+        let texel = |(index, word): (usize, _)| {
+            let (x, y) = (index as u32 % self.field.width, index as u32 / self.field.width);
+            let truth = self.truth(x, y).map_err(|error| with_causes(&error))?;
+            let bounds = byte_bounds(word);
+            Ok(std::array::from_fn(|i| Expected {
+                truth: truth[i],
+                bound: bounds[i],
+            }))
         };
+        words.iter().enumerate().map(texel).collect()
+    }
+
+    /// The bytes of a texel: those of its normal, and its height.
+    fn truth(&self, x: u32, y: u32) -> Result<[f64; 4], Error> {
+        let bake = self.bake()?;
+        let (field, edge) = (&self.field, self.edge);
         let slope = DVec2::new(f64::from(bake.slope[0]), f64::from(bake.slope[1]));
-        let (truth, function, heights) = match self.kernel {
+        let (normal, [k, o]) = match self.kernel {
+            Kernel::HeightToNormalForwardPublished => {
+                let scale = f64::from(PUBLISHED_SCALE);
+                let normal = reference::height_to_normal_forward::published(field, x, y, scale);
+                (normal, [127.0, 128.0])
+            }
             Kernel::HeightToNormalForward => (
-                reference::height_to_normal_forward::hardened(&self.field, self.edge, x, y, slope),
-                "height_to_normal_forward",
-                vec![h(0, 0), h(1, 0), h(0, 1)],
+                reference::height_to_normal_forward::hardened(field, edge, x, y, slope),
+                bake.byte_scale_offset(),
             ),
             _ => (
-                reference::height_to_normal::central(&self.field, self.edge, x, y, slope),
-                "height_to_normal",
-                vec![h(-1, 0), h(1, 0), h(0, -1), h(0, 1)],
+                reference::height_to_normal::central(field, edge, x, y, slope),
+                bake.byte_scale_offset(),
             ),
         };
-        let arguments = [heights.as_slice(), &bake.slope].concat();
-        Ok(self.bytes(truth, function, &arguments, bake.byte_scale_offset(), h(0, 0)))
-    }
-
-    fn expected_published(&self, x: u32, y: u32) -> [Expected; 4] {
-        let (field, scale) = (&self.field, f64::from(PUBLISHED_SCALE));
-        let truth = reference::height_to_normal_forward::published(field, x, y, scale);
-        let inner = x > 0 && y > 0 && x + 1 < field.width && y + 1 < field.height;
-        let byte = |x, y| (f64::from(field.texel(x, y)) * 255.0).round() as f32;
-        let here = byte(x, y);
-        // The flat border is the normal of three equal heights.
-        let (row, column) = if inner {
-            (byte(x, y + 1), byte(x + 1, y))
-        } else {
-            (here, here)
-        };
-        let arguments = [here, row, column, PUBLISHED_SCALE];
-        self.bytes(
-            truth,
-            "height_to_normal_forward_published",
-            &arguments,
-            [127.0, 128.0],
-            field.texel(x, y),
-        )
-    }
-
-    /// Bytes of the normal by trunc(n·k + o), and of the height.
-    fn bytes(
-        &self,
-        truth: DVec3,
-        function: &str,
-        arguments: &[f32],
-        [k, o]: [f32; 2],
-        height: f32,
-    ) -> [Expected; 4] {
-        let arguments: Vec<Bounded> = arguments.iter().copied().map(Bounded::input).collect();
-        let bounds =
-            tolerance::find(function).map(|row| (row.bound)(&mut crate::oracle::Args::new(&arguments)));
-        let bounds = bounds.unwrap_or_default();
-        let byte = |n: f64, bound: Bounded, [k, o]: [f32; 2]| {
-            let coded = bound * Bounded::exact(k) + Bounded::exact(o);
-            Expected {
-                truth: (n * f64::from(k) + f64::from(o)).trunc(),
-                bound: coded.trunc().into(),
-            }
-        };
-        let of = |i: usize| byte(truth[i], bounds.get(i).copied().unwrap_or(Bounded::OPEN), [k, o]);
-        let alpha = byte(f64::from(height), Bounded::input(height), [255.0, 0.5]);
-        [of(0), of(1), of(2), alpha]
+        let bytes = (normal * f64::from(k) + DVec3::splat(f64::from(o))).trunc();
+        let alpha = (f64::from(field.texel(x, y)) * 255.0 + 0.5).trunc();
+        Ok([bytes.x, bytes.y, bytes.z, alpha])
     }
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
-        let (kernel, twin) = (
-            self.texels(bench)?,
-            self.twin().map_err(|error| with_causes(&error))?,
-        );
+        let module = bench.module(&Module::Kernel(self.kernel))?;
+        let texture = TextureData::r32f(self.field.width, self.field.height, &self.field.texels);
+        let name = self.id.to_string();
+        let dispatch = self.dispatch(&name, &texture)?;
+        let expected = self
+            .expected
+            .for_text(module.text(), || self.expectations(&dispatch, &module))?;
+        let kernel = dispatch.run(bench)?.words("texels");
+        let twin = self.twin().map_err(|error| with_causes(&error))?;
         if kernel.len() != twin.texels.len() {
             return Err(format!(
                 "the kernel wrote {} texels of {}",
@@ -260,21 +228,16 @@ impl BakeCase {
             ));
         }
         let (mut comparison, mut different) = (Comparison::default(), 0);
-        for (index, (got, twin)) in kernel.iter().zip(&twin.texels).enumerate() {
-            let (x, y) = (index as u32 % self.field.width, index as u32 / self.field.width);
-            let expected = self.expected(x, y).map_err(|error| with_causes(&error))?;
-            let place = [x as f32, y as f32];
-            comparison.item(&place, &got.map(f32::from), &expected);
-            comparison.item(&place, &twin.map(f32::from), &expected);
+        for (index, ((got, twin), expected)) in kernel.iter().zip(&twin.texels).zip(&*expected).enumerate() {
+            let got = got.to_le_bytes();
+            let place = [index as u32 % self.field.width, index as u32 / self.field.width].map(|i| i as f32);
+            comparison.item(&place, &got.map(f32::from), expected);
+            comparison.item(&place, &twin.map(f32::from), expected);
             different += got.iter().zip(twin).filter(|(a, b)| a != b).count();
         }
         // The published codec truncates 127·1 + 128 = 255, so each flat texel lies on a boundary: its border alone is undecided.
         let published = self.kernel == Kernel::HeightToNormalForwardPublished;
-        let limit = if published {
-            1.0
-        } else {
-            tolerance::UNDECIDED_LIMIT
-        };
+        let limit = if published { 1.0 } else { UNDECIDED_LIMIT };
         let outcome = Outcome::of(kernel.len(), comparison, limit);
         let note = format!(
             "{different} of {} bytes differ from the twin, each next to a rounding boundary",
@@ -291,7 +254,8 @@ impl Case for BakeCase {
     }
 
     fn basis(&self) -> Vec<&'static str> {
-        vec!["twin on the CPU", "reference f64", "accuracy rules at the input"]
+        let twin = std::iter::once("twin on the CPU");
+        twin.chain(oracle::BASIS).collect()
     }
 
     fn modules(&self) -> Result<Vec<Module>, String> {

@@ -2,9 +2,11 @@
 
 pub mod accuracy;
 pub mod bake;
+pub mod cube_map_bake;
 pub mod defect;
 pub mod mesh;
 pub mod mikktspace;
+pub mod mips_bake;
 pub mod normalisation_cube_map;
 pub mod probe;
 pub mod scene;
@@ -32,6 +34,8 @@ pub fn cases(scope: &Scope) -> Vec<Box<dyn Case>> {
     cases.extend(probe::cases(scope.full, scope.seed));
     cases.extend(defect::cases());
     cases.extend(bake::cases());
+    cases.extend(cube_map_bake::cases());
+    cases.extend(mips_bake::cases());
     cases.extend(mesh::cases());
     cases.extend(mikktspace::cases());
     cases.extend(normalisation_cube_map::cases());

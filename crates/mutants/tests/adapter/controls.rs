@@ -21,7 +21,7 @@ fn refuses_everything(_outcome: &Outcome) -> bool {
 }
 
 fn ground() -> Ground {
-    Ground::new(sources()).expect("the library is whole")
+    Ground::new(sources(), true).expect("the library is whole")
 }
 
 fn judge(ground: &Ground, device: &Device, mutant: &Mutant, jury: Jury) -> (Fate, Vec<Step>) {
