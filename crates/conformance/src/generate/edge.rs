@@ -115,6 +115,8 @@ fn scalars(role: Role) -> Vec<f32> {
                 1.0f32.next_down(),
                 1e-20,
                 SUBNORMAL,
+                // Outside: what clamps, and what lets the line go on.
+                1.5,
             ];
             unit.iter().flat_map(|&x| [x, -x]).collect()
         }
@@ -133,10 +135,15 @@ fn scalars(role: Role) -> Vec<f32> {
             0.5,
             1e-3,
             1e-20,
+            f32::MIN_POSITIVE,
             SUBNORMAL,
             -1e-20,
+            // Normals that are not unit.
+            2.0,
+            -2.0,
         ],
-        Role::Exponent => vec![1.0, 1e-3, 0.5, 2.0, 16.0, 64.0, 256.0, 4096.0],
+        // Below 0 counts as 0.
+        Role::Exponent => vec![0.0, -1.0, 1.0, 1e-3, 0.5, 2.0, 16.0, 64.0, 256.0, 4096.0],
         Role::Sign => vec![-1.0, 1.0],
         Role::Byte => vec![0.0, 1.0, 2.0, 126.0, 127.0, 128.0, 129.0, 254.0, 255.0],
         Role::Index => vec![
@@ -276,6 +283,10 @@ fn matrices() -> Vec<[f32; 9]> {
         diagonal(-2.0, -3.0, -0.5),
         diagonal(1e-4, 1e-4, 1e-4),
         diagonal(1e4, 1e4, 1e4),
+        // Determinants and cofactors that would overflow or vanish, column by column and together.
+        diagonal(1e-25, 1e-25, -1e-25),
+        diagonal(-1e25, 1e25, 1e25),
+        diagonal(1e-30, -1e30, 1.0),
         [1.0, 0.0, 0.0, 0.75, 1.0, 0.0, 0.0, -0.5, 1.0],
         [0.5, 1.0, -2.0, 3.0, 0.25, 1.0, -1.0, 2.0, 0.125],
     ];

@@ -21,7 +21,9 @@ fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
     if COMMUTATIVE.contains(&it.ty.ident.name().as_str()) {
         return Vec::new();
     }
-    let pairs = (1..it.arguments.len()).map(|second| (argument(it, second - 1), argument(it, second)));
+    // clamp(e, low, high) is min(max(e, low), high), and max commutes.
+    let first = if *it.ty.ident.name() == "clamp" { 2 } else { 1 };
+    let pairs = (first..it.arguments.len()).map(|second| (argument(it, second - 1), argument(it, second)));
     pairs
         .filter(|(a, b)| text[a.clone()] != text[b.clone()])
         .map(|(a, b)| {
@@ -55,6 +57,7 @@ mod tests {
     #[test]
     fn what_commutes_or_is_equal_stays() {
         assert!(expressions(&OPERATOR, "dot(a, b)").is_empty());
+        assert_eq!(expressions(&OPERATOR, "clamp(a, b, c)"), ["clamp(a, c, b)"]);
         assert_eq!(
             expressions(&OPERATOR, "vec3f(0.0, 0.0, 1.0)"),
             ["vec3f(0.0, 1.0, 0.0)"]
