@@ -1,5 +1,9 @@
-//! Neighbouring arguments of a call swapped: of built-ins, constructors and the library's own functions. Calls whose
-//! arguments commute are left alone; arguments of different types do not validate and do not count.
+//! Neighbouring arguments of a call swapped: of built-ins, constructors and the library's own functions. Arguments of different
+//! types do not validate and do not count.
+//!
+//! Left alone is what is the same program by the language: arguments that commute (`dot`, `max`, `min`, `distance`, and the first
+//! two of `clamp(e, low, high)`, which is min(max(e, low), high) or the median), and what is no program: constant bounds of a
+//! clamp, the lower above the upper, are an error that only some compilers report.
 
 use super::{Operator, argument, call, put};
 use crate::mutant::Change;
@@ -21,11 +25,12 @@ fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
     if COMMUTATIVE.contains(&it.ty.ident.name().as_str()) {
         return Vec::new();
     }
-    // clamp(e, low, high) is min(max(e, low), high), and max commutes.
-    let first = if *it.ty.ident.name() == "clamp" { 2 } else { 1 };
+    let clamp = *it.ty.ident.name() == "clamp";
+    let first = if clamp { 2 } else { 1 };
     let pairs = (first..it.arguments.len()).map(|second| (argument(it, second - 1), argument(it, second)));
     pairs
         .filter(|(a, b)| text[a.clone()] != text[b.clone()])
+        .filter(|(a, b)| !(clamp && is_constant(&text[a.clone()]) && is_constant(&text[b.clone()])))
         .map(|(a, b)| {
             let between = &text[a.end..b.start];
             put(
@@ -34,6 +39,13 @@ fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
             )
         })
         .collect()
+}
+
+/// Whether an expression is made of numbers and float vectors of them alone.
+fn is_constant(expression: &str) -> bool {
+    let vectors = ["vec2f", "vec3f", "vec4f"].iter();
+    let bare = vectors.fold(expression.to_owned(), |text, vector| text.replace(vector, ""));
+    !bare.contains(|c: char| c == '_' || c.is_alphabetic())
 }
 
 #[cfg(test)]
@@ -58,6 +70,11 @@ mod tests {
     fn what_commutes_or_is_equal_stays() {
         assert!(expressions(&OPERATOR, "dot(a, b)").is_empty());
         assert_eq!(expressions(&OPERATOR, "clamp(a, b, c)"), ["clamp(a, c, b)"]);
+        assert_eq!(
+            expressions(&OPERATOR, "clamp(a, vec2f(0.0), last)"),
+            ["clamp(a, last, vec2f(0.0))"]
+        );
+        assert!(expressions(&OPERATOR, "clamp(a, vec3f(-1.0), vec3f(1.0))").is_empty());
         assert_eq!(
             expressions(&OPERATOR, "vec3f(0.0, 0.0, 1.0)"),
             ["vec3f(0.0, 1.0, 0.0)"]

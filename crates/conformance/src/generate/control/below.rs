@@ -2,6 +2,12 @@
 
 use super::{IDENTITY, Known, known};
 
+const TINY: f32 = 7.888_609e-31;
+const HUGE: f32 = 1.267_650_6e30;
+const FLAT: [f32; 9] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+const FLAT_WITH_X: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0];
+const FLAT_WITH_Y: [f32; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0];
+
 pub(super) const ROWS: &[Known] = &[
     // The saddle 0 1 / 1 0 at (1/4, 1/4): x + y − 2xy = 3/8, slopes 1 − 2y and 1 − 2x.
     known("bilinear", &[0.0, 1.0, 1.0, 0.0, 0.25, 0.25], &[0.375]),
@@ -14,6 +20,13 @@ pub(super) const ROWS: &[Known] = &[
     known("resolve_edge", &[-1.0, 4.0, 1.0], &[0.0]),
     known("resolve_edge", &[4.0, 4.0, 1.0], &[3.0]),
     known("resolve_edge", &[9.0, 4.0, 2.0], &[3.0]),
+    // An image without texels has texel 0, whatever the mode.
+    known("resolve_edge", &[5.0, 0.0, 0.0], &[0.0]),
+    known("resolve_edge", &[-5.0, 0.0, 1.0], &[0.0]),
+    known("resolve_edge", &[5.0, 0.0, 2.0], &[0.0]),
+    // Another mode clamps.
+    known("resolve_edge", &[9.0, 4.0, 3.0], &[3.0]),
+    known("resolve_edge", &[-9.0, 4.0, 3.0], &[0.0]),
     known("euclidean_remainder", &[-7.0, 4.0], &[1.0]),
     // N = z, T = x: B = y, turned round by the handedness.
     known(
@@ -32,12 +45,29 @@ pub(super) const ROWS: &[Known] = &[
         &[0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 1.0],
         &[0.0, 2.0, 0.0],
     ),
-    // A stretch of 2 along x: cof = diag(1, 2, 2), scaled by min(s) / (s₀ s₁ s₂) = 1/2.
+    // A stretch of 2 along x: cof = diag(1, 2, 2), brought to size by s₀ s₁ s₂ = 2 and the largest component of v / s, 1.
     known(
         "cofactor_direction",
         &[2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0],
         &[0.5, 0.0, 1.0],
     ),
+    // An axis 2^200 times as long as another still has its normal.
+    known(
+        "cofactor_direction",
+        &[TINY, 0.0, 0.0, 0.0, HUGE, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0],
+        &[0.0, 1.0, 0.0],
+    ),
+    // Flattened along y: the plane's normal is what it was, and directions within it are no normals.
+    known("cofactor_direction", &FLAT_WITH_Y, &[0.0, 1.0, 0.0]),
+    known("cofactor_direction", &FLAT_WITH_X, &[0.0, 0.0, 0.0]),
+    known(
+        "cofactor_direction",
+        &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+        &[0.0, 0.0, 0.0],
+    ),
+    known("column_scales", &FLAT, &[1.0, 2.350_988_701_644_575e-38, 1.0]),
+    // No volume, no mirror.
+    known("mirror_sign", &FLAT, &[1.0]),
     known("mirror_sign", &IDENTITY, &[1.0]),
     known(
         "mirror_sign",

@@ -10,6 +10,13 @@ pub(super) const ROWS: &[Known] = &[
         &[0.005_511_811, -0.005_511_811, 0.5],
         &[129.0, 127.0, 192.0],
     ),
+    // Components outside of [-1, 1] are clamped, in the published form as bytes.
+    known("codec_biased_encode", &[-1.5, 1.5, 1.0], &[1.0, 255.0, 255.0]),
+    known(
+        "codec_biased_encode_published",
+        &[-1.5, 1.5, 1.0],
+        &[0.0, 255.0, 255.0],
+    ),
     known(
         "codec_biased_encode_published",
         &[-1.0, 0.0, 1.0],
@@ -50,6 +57,11 @@ pub(super) const ROWS: &[Known] = &[
         &[-1.0, 0.0, 1.0, 127.0],
         &[-127.0, 0.0, 127.0],
     ),
+    known(
+        "codec_snorm_encode",
+        &[-1.5, 1.5, 1.25, 127.0],
+        &[-127.0, 127.0, 127.0],
+    ),
     // Ties go away from zero: 16383.5 and −16383.5.
     known(
         "codec_snorm_encode",
@@ -75,12 +87,24 @@ pub(super) const ROWS: &[Known] = &[
     // Nothing left for z, and less than nothing.
     known("codec_two_channel_decode", &[1.0, 0.0], &[1.0, 0.0, 0.0]),
     known("codec_two_channel_decode", &[0.75, -1.0], &[0.75, -1.0, 0.0]),
+    // 3-4-5 along both axes; an x of 0 needs no more than y.
     known(
         "codec_two_channel_decode_published",
         &[0.0, 0.0],
         &[0.0, 0.0, 1.0],
     ),
+    known(
+        "codec_two_channel_decode_published",
+        &[0.6, 0.0],
+        &[0.600_000_023_841_857_9, 0.0, 0.799_999_982_118_606_6],
+    ),
+    known(
+        "codec_two_channel_decode_published",
+        &[0.25, 0.5],
+        &[0.25, 0.5, 0.829_156_197_588_85],
+    ),
     known("codec_unorm_encode", &[-1.0, 0.0, 1.0], &[0.0, 0.5, 1.0]),
     known("codec_unorm_decode", &[0.0, 0.5, 1.0], &[-1.0, 0.0, 1.0]),
     known("codec_unorm_encode_byte", &[-1.0, 0.0, 1.0], &[0.0, 128.0, 255.0]),
+    known("codec_unorm_encode_byte", &[-1.5, 1.5, 1.0], &[0.0, 255.0, 255.0]),
 ];

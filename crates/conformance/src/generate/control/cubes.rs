@@ -11,6 +11,11 @@ pub(super) const ROWS: &[Known] = &[
     known("cube_place", &[0.5, 0.25, 1.0], &[4.0, 0.75, 0.375]),
     known("cube_place", &[0.5, 0.25, -1.0], &[5.0, 0.25, 0.375]),
     known("cube_place", &[0.0, 0.0, 0.0], &[4.0, 0.5, 0.5]),
+    // Equally large: y goes before x, z before y.
+    known("cube_place", &[1.0, 1.0, 0.5], &[2.0, 1.0, 0.75]),
+    known("cube_place", &[-1.0, -1.0, -1.0], &[5.0, 1.0, 1.0]),
+    // Too short to have a direction.
+    known("cube_place", &[1e-40, -1e-40, 0.0], &[4.0, 0.5, 0.5]),
     known("cube_st", &[1.0, -1.0, 2.0], &[0.75, 0.25]),
     known("cube_point", &[0.0, 0.5, 0.25], &[1.0, -0.25, -0.5]),
     known("cube_point", &[3.0, 0.5, 0.25], &[0.5, -1.0, -0.25]),
@@ -19,6 +24,12 @@ pub(super) const ROWS: &[Known] = &[
         "cube_footprint",
         &[0.5, 0.0, 4.0],
         &[1.0, 0.0, 2.0, 0.0, 0.5, 0.5],
+    ),
+    // Beyond the face on either side: the texels at its border.
+    known(
+        "cube_footprint",
+        &[1.5, -0.5, 4.0],
+        &[3.0, 0.0, 3.0, 0.0, 0.5, 0.5],
     ),
     // One texel a face: the face's own direction. Two: the first of +Z looks along (−1, 1, 2).
     known("normalisation_cube_map", &[3.0, 0.0, 0.0, 1.0], &[0.0, -1.0, 0.0]),

@@ -1,6 +1,15 @@
 //! Tangent frames: made, combined, transformed.
 
-use super::{Known, known};
+use super::{HALF_ROOT, Known, known};
+
+/// Texture coordinates whose difference is 6·2⁻²³ and whose sum is 3/1.005: just told from rounding.
+const NOISE_ABOVE: f32 = 1.492_537_6;
+const NOISE_BELOW: f32 = 1.492_536_9;
+/// 2⁻³³, 2⁻⁹³ and 2⁻¹⁰⁰, and the area of two edges of the first.
+const P33: f32 = 1.164_153_2e-10;
+const P93: f32 = 1.009_742e-28;
+const P100: f32 = 7.888_609e-31;
+const AREA66: f64 = 1.355_252_715_606_880_5e-20;
 
 pub(super) const ROWS: &[Known] = &[
     known(
@@ -44,6 +53,12 @@ pub(super) const ROWS: &[Known] = &[
         &[0.0, 0.0, -1.0],
         &[0.0, -1.0, 0.0, -1.0, 0.0, 0.0],
     ),
+    // The last z before the constant frame, 2⁻²³ above −1: a = 2²³, 1 − x² a = −1.
+    known(
+        "frame_frisvad_published",
+        &[0.000_488_281_25, 0.0, -0.999_999_88],
+        &[-1.0, 0.0, -0.000_488_281_25, 0.0, 1.0, -0.0],
+    ),
     // The unit triangle with the unit texture: T = x, B = y, twice the area 1.
     known(
         "frame_from_uv_triangle",
@@ -55,6 +70,52 @@ pub(super) const ROWS: &[Known] = &[
         "frame_from_uv_triangle",
         &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 2.0, 2.0],
         &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    // Texture edges (s₁, 1) and (s₂, 1) with s₁ − s₂ = 6·2⁻²³, which is ½ % more than the noise of their products, 2⁻²² (s₁ + s₂):
+    // a share. T = (P − Q) and B = s₁ Q − s₂ P, turned by the sign of the area and made unit, s₁ and s₂ being equal to 5e-7.
+    known(
+        "frame_from_uv_triangle",
+        &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, NOISE_ABOVE, 1.0, NOISE_BELOW, 1.0],
+        &[
+            0.0,
+            0.0,
+            1.0,
+            HALF_ROOT,
+            -HALF_ROOT,
+            0.0,
+            -0.707_106_611_756_190_2,
+            0.707_106_950_616_864_3,
+            0.0,
+            1.0,
+        ],
+    ),
+    // The same with products of both signs, larger on either side, and less than the noise: no share.
+    known(
+        "frame_from_uv_triangle",
+        &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.5, 1.0, -1.500_000_5, 1.0],
+        &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    known(
+        "frame_from_uv_triangle",
+        &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.500_000_5, 1.0, 1.5, 1.0],
+        &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    // T is too short to have a direction, or B is: 2⁻¹³³, while the other one and both areas are not. No share.
+    known(
+        "frame_from_uv_triangle",
+        &[P33, 0.0, 0.0, 0.0, P33, 0.0, 1.0, 0.0, 0.0, P100],
+        &[0.0, 0.0, AREA66, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    known(
+        "frame_from_uv_triangle",
+        &[P33, 0.0, 0.0, 0.0, P33, 0.0, P100, 0.0, 0.0, 1.0],
+        &[0.0, 0.0, AREA66, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    ),
+    // 2⁻¹²⁶ is just long enough.
+    known(
+        "frame_from_uv_triangle",
+        &[P33, 0.0, 0.0, 0.0, P33, 0.0, 1.0, 0.0, 0.0, P93],
+        &[0.0, 0.0, AREA66, AREA66, 0.0, 0.0, 0.0, AREA66, 0.0, AREA66],
     ),
     // The texture twice as dense along u halves T.
     known(

@@ -18,6 +18,15 @@ pub(super) const ROWS: &[Known] = &[
     known("highlight_power", &[0.5, 3.0], &[0.125]),
     known("highlight_power", &[0.0, 1.0], &[0.0]),
     known("highlight_power", &[1.0, 4096.0], &[1.0]),
+    // Normals that are not unit count as unit, exponents below 0 as 0; the smallest normal float has its power.
+    known("highlight_power", &[2.0, 3.0], &[1.0]),
+    known("highlight_power", &[0.5, -1.0], &[1.0]),
+    known(
+        "highlight_power",
+        &[f32::MIN_POSITIVE, 0.5],
+        &[1.084_202_172_485_504_4e-19],
+    ),
+    known("highlight_power_published", &[2.0, 3.0], &[1.0]),
     known("highlight_power_published", &[0.5, 3.0], &[0.125]),
     // Light, eye and normal agree: full diffuse and full highlight.
     known(
@@ -88,6 +97,8 @@ pub(super) const ROWS: &[Known] = &[
         &[0.5, 0.25, 0.125],
     ),
     known("quantise_unorm8", &[0.0, 1.0, 0.25], &[0.0, 1.0, 64.0 / 255.0]),
+    // A target of bytes keeps no more than 1 and no less than 0.
+    known("quantise_unorm8", &[1.5, -0.5, 0.25], &[1.0, 0.0, 64.0 / 255.0]),
     // I = 1/2 is kept as 128/255, and that times 1/4 as 32/255.
     known(
         "dot3_two_pass",
@@ -137,6 +148,12 @@ pub(super) const ROWS: &[Known] = &[
         "wrap_lambert_factor",
         &[-0.5, 0.5, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0],
         &[0.375],
+    ),
+    // A light three times too long, from behind: no light, not less.
+    known(
+        "wrap_lambert_factor",
+        &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, -3.0],
+        &[0.0],
     ),
     known(
         "wrap_lambert_factor_published",

@@ -64,9 +64,9 @@ fn footprint(st: DVec2, size: f64) -> Vec<f64> {
         .collect()
 }
 
-/// What a map of that depth keeps of a normal.
+/// What a map of that depth keeps of a normal, its components clamped.
 fn codes(normal: DVec3, largest: f64) -> Vec<f64> {
-    let code = |n| (depth(largest).store(codec_unorm::encode(n)) * largest).round();
+    let code = |n: f64| (depth(largest).store(codec_unorm::encode(n.clamp(-1.0, 1.0))) * largest).round();
     normal.to_array().map(code).to_vec()
 }
 

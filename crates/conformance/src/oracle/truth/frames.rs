@@ -89,7 +89,7 @@ pub(super) const ROWS: Rows = &[
         let frame = normal_transform::hardened(linear, normal, tangent);
         // Of unit vectors, so that it is known below which length there is no direction.
         let along = normalize_or_zero(linear * tangent.truncate());
-        let across = normalize_or_zero(frame.normal).cross(along);
+        let across = normalize(frame.normal).cross(along);
         out3(normalize_or_zero(
             across * tangent.w * sign_not_zero(linear.determinant()),
         ))
