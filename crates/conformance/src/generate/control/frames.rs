@@ -56,7 +56,7 @@ pub(super) const ROWS: &[Known] = &[
     // The last z before the constant frame, 2⁻²³ above −1: a = 2²³, 1 − x² a = −1.
     known(
         "frame_frisvad_published",
-        &[0.000_488_281_25, 0.0, -0.999_999_88],
+        &[0.000_488_281_25, 0.0, -0.999_999_9],
         &[-1.0, 0.0, -0.000_488_281_25, 0.0, 1.0, -0.0],
     ),
     // The unit triangle with the unit texture: T = x, B = y, twice the area 1.
