@@ -45,7 +45,7 @@ pub(super) const ROWS: &[Known] = &[
         &[0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 1.0],
         &[0.0, 2.0, 0.0],
     ),
-    // A stretch of 2 along x: cof = diag(1, 2, 2), brought to size by s₀ s₁ s₂ = 2 and the largest component of v / s, 1.
+    // A stretch of 2 along x: cof = diag(1, 2, 2), brought to size by s₀ s₁ s₂ = 2.
     known(
         "cofactor_direction",
         &[2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0],
@@ -55,17 +55,21 @@ pub(super) const ROWS: &[Known] = &[
     known(
         "cofactor_direction",
         &[TINY, 0.0, 0.0, 0.0, HUGE, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0],
-        &[0.0, 1.0, 0.0],
+        &[0.0, 7.888_609_052_210_118e-31, 0.0],
     ),
     // Flattened along y: the plane's normal is what it was, and directions within it are no normals.
-    known("cofactor_direction", &FLAT_WITH_Y, &[0.0, 1.0, 0.0]),
+    known(
+        "cofactor_direction",
+        &FLAT_WITH_Y,
+        &[0.0, 5.316_911_983_139_664e36, 0.0],
+    ),
     known("cofactor_direction", &FLAT_WITH_X, &[0.0, 0.0, 0.0]),
     known(
         "cofactor_direction",
         &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
         &[0.0, 0.0, 0.0],
     ),
-    known("column_scales", &FLAT, &[1.0, 2.350_988_701_644_575e-38, 1.0]),
+    known("column_scales", &FLAT, &[1.0, 1.880_790_961_315_66e-37, 1.0]),
     // No volume, no mirror.
     known("mirror_sign", &FLAT, &[1.0]),
     known("mirror_sign", &IDENTITY, &[1.0]),

@@ -68,18 +68,15 @@ pub(super) fn length_of(v: DVec3) -> f64 {
     }
 }
 
-/// The largest component of each column, not below twice the smallest normal f32.
+/// The largest component of each column, not below 2⁻¹²².
 fn column_scales(linear: DMat3) -> DVec3 {
     let largest = linear
         .to_cols_array_2d()
         .map(|c| DVec3::from_array(c).abs().max_element());
-    DVec3::from_array(largest).max(DVec3::splat(2.0 * SMALLEST_NORMAL_F32))
+    DVec3::from_array(largest).max(DVec3::splat(16.0 * SMALLEST_NORMAL_F32))
 }
 
-/// cof(M) v divided by s₀ s₁ s₂ and by the largest component of v / s, with s the columns' largest components: how the library
-/// brings its direction to size.
+/// cof(M) v divided by s₀ s₁ s₂ with s the columns' largest components: how the library brings its direction to size.
 fn scaled_cofactor(linear: DMat3, v: DVec3) -> DVec3 {
-    let scales = column_scales(linear);
-    let largest = (v / scales).abs().max_element().max(SMALLEST_NORMAL_F32);
-    normal_transform::cofactor(linear) * v / (scales.element_product() * largest)
+    normal_transform::cofactor(linear) * v / column_scales(linear).element_product()
 }
