@@ -22,7 +22,6 @@
 
 pub mod bench;
 pub mod bound;
-pub mod bounded;
 pub mod case;
 pub mod case_id;
 pub mod compare;
