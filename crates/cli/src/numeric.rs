@@ -63,7 +63,7 @@ pub(crate) struct Settings {
 
 /// All numeric findings in the shaders of one input, by place.
 pub(crate) fn lint_input(input: &Path, shaders: &[Shader], settings: &Settings) -> Result<Vec<Finding>> {
-    let declared = sidecar(input, settings)?;
+    let declared = sidecar(input, settings.ranges.as_deref())?;
     let entries: Vec<(&Shader, String)> = shaders
         .iter()
         .flat_map(|shader| {
@@ -107,11 +107,11 @@ pub(crate) fn lint_input(input: &Path, shaders: &[Shader], settings: &Settings) 
     Ok(findings)
 }
 
-/// The sidecar of an input, read and parsed.
-fn sidecar(input: &Path, settings: &Settings) -> Result<Option<Declared>> {
+/// The sidecar of an input, read and parsed: the one that the call names, else the one beside it.
+pub(crate) fn sidecar(input: &Path, named: Option<&Path>) -> Result<Option<Declared>> {
     let beside = input.with_extension("ranges.toml");
-    let path = match &settings.ranges {
-        Some(path) => path.clone(),
+    let path = match named {
+        Some(path) => path.to_owned(),
         None if beside.is_file() => beside,
         None => return Ok(None),
     };

@@ -7,32 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
-use tool::{Run, bossage, bossage_without_adapter, copy, entries, repository, text};
-
-fn parsed(text: &str) -> Value {
-    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error} in:\n{text}"))
-}
-
-#[expect(clippy::print_stderr, reason = "a skipped test says why")]
-fn say(line: &str) {
-    eprintln!("{line}");
-}
-
-/// Whether this machine has a driver's adapter. Where a run must have one, `BOSSAGE_REQUIRE` names it, and going without fails.
-fn has_adapter() -> bool {
-    let report = parsed(&bossage(&["doctor", "--json"]).exits(0).stdout);
-    let adapters = report["adapters"].as_array().unwrap();
-    let found = adapters.iter().any(|adapter| adapter["name"] != "embedded");
-    let required = std::env::var("BOSSAGE_REQUIRE").unwrap_or_default();
-    assert!(
-        found || !required.contains("lavapipe"),
-        "BOSSAGE_REQUIRE names an adapter, and none is here"
-    );
-    if !found {
-        say(&format!("SKIP: no driver; {}", report["how_to_get_an_adapter"]));
-    }
-    found
-}
+use tool::{Run, bossage, bossage_without_adapter, copy, entries, has_adapter, parsed, repository, text};
 
 #[test]
 fn plan_says_why() {

@@ -36,6 +36,8 @@ pub enum Refusal {
     OraclesDisagree,
     /// The rules leave it open where the function promises an answer.
     Open,
+    /// Another route returned something else, and the interval does not admit both.
+    Disagree,
 }
 
 impl Refusal {
@@ -50,6 +52,7 @@ impl Refusal {
             Self::Open => {
                 "the accuracy rules leave this output open, inside the function's documented domain"
             }
+            Self::Disagree => "differs from another route's result by more than the acceptance interval",
         }
     }
 }
@@ -76,6 +79,51 @@ pub struct Worst {
     pub truth: Number,
     /// The acceptance interval, low and high.
     pub interval: [Number; 2],
+    /// What the output is called and at which input, of a user's shader.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub place: Option<String>,
+    /// The inputs by name, of a user's shader; those that belong to the output first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub inputs: Vec<NamedInput>,
+    /// What another route returned, where two are compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub other: Option<OtherResult>,
+}
+
+/// An input of a user's shader.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NamedInput {
+    /// How the shader calls it: `lights.items[3].vector`.
+    pub name: String,
+    /// Its components; exact in their type.
+    pub values: Vec<f64>,
+}
+
+/// What another route returned.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OtherResult {
+    /// Route and adapter.
+    pub from: String,
+    /// Its result.
+    pub got: Number,
+}
+
+/// More named inputs than these are left to the JSON.
+const SHOWN: usize = 8;
+
+impl fmt::Display for NamedInput {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // The shortest text of a number that is exact in f32 is that of the f32.
+        let text = |x: f64| match x as f32 {
+            single if f64::from(single) == x => format!("{single:?}"),
+            _ => format!("{x:?}"),
+        };
+        let values: Vec<String> = self.values.iter().map(|x| text(*x)).collect();
+        match values.as_slice() {
+            [one] => write!(f, "{} = {one}", self.name),
+            many => write!(f, "{} = ({})", self.name, many.join(", ")),
+        }
+    }
 }
 
 /// JSON has no NaN and no infinity, inputs do.
@@ -87,14 +135,31 @@ fn numbers<S: serde::Serializer>(values: &[f32], serializer: S) -> Result<S::Ok,
 
 impl fmt::Display for Worst {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "input     {:?}", self.input)?;
+        if self.place.is_none() {
+            writeln!(f, "input     {:?}", self.input)?;
+        }
+        for input in self.inputs.iter().take(SHOWN) {
+            writeln!(f, "input     {input}")?;
+        }
+        if self.inputs.len() > SHOWN {
+            writeln!(f, "          and {} inputs more", self.inputs.len() - SHOWN)?;
+        }
         let got = if self.written {
             self.got.to_string()
         } else {
             "never written".to_owned()
         };
-        writeln!(f, "output    number {}: {got}", self.output)?;
-        writeln!(f, "truth     {}", self.truth)?;
+        match &self.place {
+            Some(place) => writeln!(f, "output    {place}: {got}")?,
+            None => writeln!(f, "output    number {}: {got}", self.output)?,
+        }
+        match (&self.other, &self.place) {
+            (Some(other), _) => writeln!(f, "against   {} from {}", other.got, other.from)?,
+            // Of a user's shader: what the formula says in f64, where that is within the interval.
+            (None, Some(_)) if self.truth.0.is_nan() => {}
+            (None, Some(_)) => writeln!(f, "formula   {} in f64", self.truth)?,
+            (None, None) => writeln!(f, "truth     {}", self.truth)?,
+        }
         writeln!(f, "allowed   {} to {}", self.interval[0], self.interval[1])?;
         let or_none = |x: Option<f64>| x.map_or("not a number".to_owned(), |x| format!("{x:.4e}"));
         write!(
@@ -158,17 +223,33 @@ impl Comparison {
     }
 
     fn output(&mut self, input: &[f32], output: usize, got: f32, expected: &Expected) {
-        self.outputs += 1;
-        self.undecided += usize::from(!expected.bound.is_decided());
-        self.forked += usize::from(expected.bound.is_forked());
         let open = self.demands_answers && !expected.bound.is_decided();
         let refusal = refusal(got, expected).or(open.then_some(Refusal::Open));
+        self.count(&expected.bound, refusal);
+        self.keep_worst(badness(got, expected, refusal), refusal, || {
+            worst(input, output, got, expected)
+        });
+    }
+
+    /// Counts an output.
+    pub(crate) fn count(&mut self, bound: &Bound, refusal: Option<Refusal>) {
+        self.outputs += 1;
+        self.undecided += usize::from(!bound.is_decided());
+        self.forked += usize::from(bound.is_forked());
         self.refused += usize::from(refusal.is_some());
-        let badness = badness(got, expected, refusal);
+    }
+
+    /// Keeps an output if it is worse than those before.
+    pub(crate) fn keep_worst(
+        &mut self,
+        badness: f64,
+        refusal: Option<Refusal>,
+        worst: impl FnOnce() -> Worst,
+    ) {
         if self.worst.is_none() || badness > self.badness {
             self.badness = badness;
             self.refusal = refusal;
-            self.worst = Some(worst(input, output, got, expected));
+            self.worst = Some(worst());
         }
     }
 
@@ -230,7 +311,7 @@ fn badness(got: f32, expected: &Expected, refusal: Option<Refusal>) -> f64 {
         Some(Refusal::OraclesDisagree) => 3e30,
         Some(Refusal::Open) => 2.5e30,
         Some(Refusal::NotFinite) => 2e30,
-        Some(Refusal::Outside) => 1e30 + share,
+        Some(Refusal::Outside | Refusal::Disagree) => 1e30 + share,
         None if expected.bound.is_forked() || expected.truth.abs() < MIN_NORMAL => 0.0,
         None => share,
     }
@@ -264,6 +345,9 @@ fn worst(input: &[f32], output: usize, got: f32, expected: &Expected) -> Worst {
         got: Number(got64),
         truth: Number(expected.truth),
         interval: [Number(expected.bound.low()), Number(expected.bound.high())],
+        place: None,
+        inputs: Vec::new(),
+        other: None,
     }
 }
 

@@ -57,6 +57,19 @@ pub enum Error {
         #[source]
         source: std::io::Error,
     },
+    /// A user's shader without anything to run.
+    #[error("{shader} {problem}; it has: {}", .known.join(", "))]
+    NoEntryPoint {
+        /// The shader.
+        shader: String,
+        /// What it lacks.
+        problem: String,
+        /// Its entry points with their stages.
+        known: Vec<String>,
+    },
+    /// Declared ranges that are wrong or do not fit the shader.
+    #[error(transparent)]
+    Ranges(bossage_bounds::Error),
     /// The report cannot be put into its format.
     #[error("cannot write the report as {format}: {message}")]
     Report {

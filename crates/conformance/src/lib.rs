@@ -38,6 +38,7 @@ mod run;
 pub mod suite;
 pub mod tolerance;
 pub mod ulp;
+pub mod user;
 mod verdict;
 pub mod width;
 

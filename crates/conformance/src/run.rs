@@ -140,7 +140,7 @@ pub fn run_cases(
     Ok(Report::new(environment(selection, &pairs), results))
 }
 
-fn environment(selection: &Selection, pairs: &Pairs) -> Environment {
+pub(crate) fn environment(selection: &Selection, pairs: &Pairs) -> Environment {
     Environment {
         seed: selection.seed.unwrap_or(random::SEED),
         full: selection.full,

@@ -177,6 +177,10 @@ impl<'a> Resolver<'_, 'a> {
     }
 
     fn uniform(&self, slot: &Slot<'a>) -> Result<Value<'a>, Error> {
+        if let Some(data) = look_up(&self.resources.buffers, slot.binding) {
+            self.check_length(slot, data.len())?;
+            return Ok(Value::Uniform(data.bytes().into_owned()));
+        }
         let block = block(slot.entry, slot.binding).ok_or_else(|| {
             let problem = "the manifest doesn't describe its members".to_owned();
             layout::misfit(slot.entry, &slot.binding.name, problem)

@@ -10,6 +10,10 @@ use crate::stage::{Slot, StageInputs};
 use crate::texture::{AddressMode, CompareFunction, Sampler, TexelFormat, Texture};
 use std::collections::BTreeMap;
 
+/// What a buffer that the shader only writes holds before: a number that every format has and few formulas return, so that what was
+/// never written can be told.
+pub const UNWRITTEN: f64 = 23136.0;
+
 impl Inputs {
     /// Bindings and stage inputs at points: buffers, textures and samplers of the first, one invocation of a vertex or fragment
     /// shader for each.
@@ -29,7 +33,7 @@ impl Inputs {
                 .enumerate()
                 .map(|(n, &kind)| match buffer.first {
                     Some(start) => chosen(first, start + n),
-                    None => exact::<D>(kind, 0.0),
+                    None => exact::<D>(kind, UNWRITTEN),
                 });
             bindings
                 .buffers
@@ -99,6 +103,28 @@ impl Inputs {
             }
         }
         out
+    }
+
+    /// Whether the shader reads what a buffer holds before it runs; otherwise that is [`UNWRITTEN`].
+    pub fn is_read(&self, binding: (u32, u32)) -> bool {
+        self.buffers
+            .iter()
+            .any(|buffer| buffer.binding == binding && buffer.first.is_some())
+    }
+
+    /// How many elements the run-time sized array of a buffer has; zero where it has none.
+    pub fn elements(&self, binding: (u32, u32)) -> u32 {
+        let buffer = self.buffers.iter().find(|buffer| buffer.binding == binding);
+        buffer.map_or(0, |buffer| buffer.elements)
+    }
+
+    /// Elements of the longest run-time sized array; zero where there is none.
+    pub fn longest_array(&self) -> u32 {
+        self.buffers
+            .iter()
+            .map(|buffer| buffer.elements)
+            .max()
+            .unwrap_or(0)
     }
 
     /// The scalars of a buffer at a point, in the order of its type and without padding; `None` where the shader reads nothing

@@ -18,8 +18,8 @@
 //! `tangent_matrix`) are not the vector. Everything else: floats in [−1000, 1000], signed integers alike, unsigned in [0, 1000].
 //!
 //! Built-ins: `position` of a fragment is within a 4096² target, depth in [0, 1], w in [0.001, 1000]; `vertex_index` and the other indices are in
-//! [0, 15]; `front_facing` is either. Textures: [0, 1]; integers [0, 255] or [−128, 127]; a run-time sized array has
-//! [`DEFAULT_ELEMENTS`] elements.
+//! [0, 15]; `front_facing` is either. Textures: [0, 1]; integers [0, 255] or [−128, 127]; a run-time sized array has as many elements as
+//! the longest one whose size is declared, else [`DEFAULT_ELEMENTS`].
 
 use super::Values;
 use super::pattern::Step;
@@ -27,7 +27,7 @@ use crate::kind::Kind;
 use crate::stage::Slot;
 use std::f64::consts::PI;
 
-/// Elements of a run-time sized array whose size nobody declared.
+/// Elements of run-time sized arrays of a shader for which nobody declared a size.
 pub const DEFAULT_ELEMENTS: u32 = 16;
 
 /// Bound of the magnitude of numbers about which nothing is known.

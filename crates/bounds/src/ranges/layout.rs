@@ -1,6 +1,6 @@
 //! What an entry point reads, scalar by scalar, with the path by which the shader reaches it.
 
-use super::pattern::Step;
+use super::pattern::{Step, written};
 use crate::bindings::IMMEDIATE;
 use crate::compile::layout::{Types, kind, unsupported};
 use crate::error::{Error, Result};
@@ -42,10 +42,14 @@ pub(super) struct Leaf {
 /// A buffer: its binding and the kinds of its scalars.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct BufferInput {
+    /// The variable's name.
+    pub(crate) name: String,
     pub(crate) binding: (u32, u32),
     pub(crate) kinds: Vec<Kind>,
     /// The first scalar of [`super::Inputs::scalars`] that belongs to it; `None` where the shader only writes it.
     pub(crate) first: Option<usize>,
+    /// Elements of its run-time sized array; zero where it has none.
+    pub(crate) elements: u32,
 }
 
 /// Scalars of one variable that are described one by one; larger ones are refused.
@@ -53,6 +57,31 @@ const MAX_INPUT_SCALARS: u64 = 1 << 20;
 
 /// Bytes that a scalar with its path takes, about.
 const LEAF_BYTES: u64 = 256;
+
+/// The names of a buffer's scalars, in order: `result[3].x`. A run-time sized array is taken to have that many elements. Empty where the
+/// module has no such buffer.
+///
+/// # Errors
+/// [`Error::Unsupported`] and [`Error::Memory`], as for inputs of that type.
+pub fn scalar_names(module: &Module, binding: (u32, u32), elements: u32) -> Result<Vec<String>> {
+    let is_bound = |variable: &&GlobalVariable| {
+        let at = variable.binding.map(|at| (at.group, at.binding));
+        at == Some(binding) && is_buffer(variable)
+    };
+    let Some(variable) = module.global_variables.iter().map(|(_, v)| v).find(is_bound) else {
+        return Ok(Vec::new());
+    };
+    let walk = Walk {
+        module,
+        leaves: Vec::new(),
+        buffers: Vec::new(),
+        elements: &|_| elements,
+    };
+    let mut scalars = Vec::new();
+    let name = variable.name.clone().unwrap_or_default();
+    walk.walk(variable.ty, &mut vec![Step::Name(name)], &mut scalars)?;
+    Ok(scalars.iter().map(|(path, _)| written(path)).collect())
+}
 
 /// Walks one entry point.
 pub(super) struct Walk<'m> {
@@ -83,14 +112,21 @@ impl<'m> Walk<'m> {
             (None, _) => return Ok(()),
         };
         let mut scalars = Vec::new();
-        let mut path = vec![Step::Name(name)];
+        let elements = if self.is_sized_at_run_time(variable.ty) {
+            (self.elements)(&name)
+        } else {
+            0
+        };
+        let mut path = vec![Step::Name(name.clone())];
         self.walk(variable.ty, &mut path, &mut scalars)?;
         let kinds = scalars.iter().map(|(_, kind)| *kind).collect();
         let first = read.then_some(self.leaves.len());
         self.buffers.push(BufferInput {
+            name,
             binding,
             kinds,
             first,
+            elements,
         });
         if read {
             let (group, binding) = binding;
@@ -106,6 +142,16 @@ impl<'m> Walk<'m> {
             self.leaves.extend(leaves);
         }
         Ok(())
+    }
+
+    /// Whether a type is, or ends in, a run-time sized array.
+    fn is_sized_at_run_time(&self, ty: Handle<Type>) -> bool {
+        match &self.module.types[ty].inner {
+            TypeInner::Struct { members, .. } => members
+                .last()
+                .is_some_and(|member| self.is_sized_at_run_time(member.ty)),
+            inner => inner.is_dynamically_sized(&self.module.types),
+        }
     }
 
     /// All scalars of a type, with their paths.

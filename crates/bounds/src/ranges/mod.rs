@@ -13,6 +13,7 @@
 //! "lights.items[].vector.xyz" = { unit = true } # of every element of an array
 //! "lights.items[3].radiance" = { lo = 0, hi = [4, 4, 2] } # of one element, a bound for each component
 //! heights = { size = 16, lo = 0, hi = 1 }       # a run-time sized array: how many elements, and their range
+//! slopes = { size = 16 }                        # one that the shader only writes has nothing but a size
 //! "heights[0..3]" = { unit = true }             # three scalars that are one unit vector
 //! normal_map = { size = [8, 8], lo = 0, hi = 1 }  # a texture: its size, and the range of its texels
 //! ```
@@ -31,7 +32,8 @@ mod report;
 mod resolve;
 mod sample;
 
-pub use layout::Target;
+pub use bind::UNWRITTEN;
+pub use layout::{Target, scalar_names};
 pub use parse::Declared;
 pub use report::{Problem, Report};
 pub use sample::{Point, Seed, Style};

@@ -28,10 +28,9 @@ impl Inputs {
             .iter()
             .position(|e| e.name == entry)
             .ok_or_else(|| crate::compile::program::no_entry(module, entry))?;
-        let size_of = |name: &str| match plain_size(declared, name) {
-            Some([n, ..]) => *n,
-            Some([]) | None => infer::DEFAULT_ELEMENTS,
-        };
+        let declared_size = |name: &str| plain_size(declared, name).and_then(|size| size.first().copied());
+        let longest = longest_size(module, info, index, &declared_size);
+        let size_of = |name: &str| declared_size(name).unwrap_or(longest);
         let mut walk = Walk {
             module,
             leaves: Vec::new(),
@@ -115,6 +114,10 @@ impl Inputs {
                 declare_texture(texture, entry, &mut report);
                 continue;
             }
+            if entry.size.is_some() && self.declares_written(entry, &mut report) {
+                self.used.insert(number);
+                continue;
+            }
             let matched: Vec<usize> = (0..leaves.len())
                 .filter(|&k| entry.pattern.matches(&leaves[k].path))
                 .collect();
@@ -124,6 +127,19 @@ impl Inputs {
             }
         }
         report.check(()).map_err(Error::Ranges)
+    }
+
+    /// Whether a range names a run-time sized array that the shader only writes: that has a size and nothing else to choose.
+    fn declares_written(&self, entry: &Entry, report: &mut Report) -> bool {
+        let found = self.buffers.iter().any(|buffer| {
+            let is_named = entry.pattern.is_plain() && buffer.name == entry.pattern.head();
+            is_named && buffer.first.is_none() && buffer.elements > 0
+        });
+        if found && entry.values.is_some() {
+            let message = format!("`{}` is only written, so it has no values to choose", entry.key);
+            report.note(entry.values_span.clone(), message, "leave its size alone here");
+        }
+        found
     }
 
     fn declare_scalars(&mut self, leaves: &[Leaf], matched: &[usize], entry: &Entry, report: &mut Report) {
@@ -207,6 +223,11 @@ impl Inputs {
             .map(|group| without_numbers(&group.name))
             .collect();
         names.extend(self.textures.iter().map(|texture| texture.name.clone()));
+        let written = self
+            .buffers
+            .iter()
+            .filter(|buffer| buffer.first.is_none() && buffer.elements > 0);
+        names.extend(written.map(|buffer| buffer.name.clone()));
         names
     }
 }
@@ -226,6 +247,22 @@ fn array_count(size: ArraySize) -> u32 {
         ArraySize::Constant(n) => n.get(),
         ArraySize::Pending(_) | ArraySize::Dynamic => 1,
     }
+}
+
+/// The longest declared size of a buffer that the entry point uses: what arrays without a size get, since the arrays of a shader often
+/// belong together.
+fn longest_size(
+    module: &Module,
+    info: &ModuleInfo,
+    entry: usize,
+    declared: &dyn Fn(&str) -> Option<u32>,
+) -> u32 {
+    let uses = info.get_entry_point(entry);
+    let buffers = module.global_variables.iter().filter(|(handle, variable)| {
+        !uses[*handle].is_empty() && matches!(variable.space, AddressSpace::Storage { .. })
+    });
+    let sizes = buffers.filter_map(|(_, variable)| declared(variable.name.as_deref()?));
+    sizes.max().unwrap_or(infer::DEFAULT_ELEMENTS)
 }
 
 fn plain_size<'a>(declared: Option<&'a Declared>, name: &str) -> Option<&'a [u32]> {

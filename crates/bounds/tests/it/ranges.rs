@@ -208,3 +208,66 @@ fn the_file_itself_may_be_wrong() {
         assert!(shown.contains(message), "{text}: {shown}");
     }
 }
+
+const ARRAYS: &str = "
+    @group(0) @binding(0) var<storage, read> source: array<f32>;
+    @group(0) @binding(1) var<storage, read_write> result: array<vec3f>;
+    @compute @workgroup_size(1) fn main() { result[0] = vec3f(source[0]); }";
+
+fn arrays(sidecar: &str) -> Result<Inputs, String> {
+    let (module, info) = module_of(ARRAYS);
+    let declared = Declared::parse("a.ranges.toml", sidecar).map_err(|e| e.to_string())?;
+    let inputs = Inputs::new(&module, &info, "main", Some(&declared)).map_err(|e| e.to_string())?;
+    let known = [inputs];
+    declared.check(&known).map_err(|e| e.to_string())?;
+    let [inputs] = known;
+    Ok(inputs)
+}
+
+#[test]
+fn arrays_that_are_only_written_have_a_size() {
+    let sizes = |sidecar: &str| {
+        let inputs = arrays(sidecar).unwrap();
+        [inputs.elements((0, 0)), inputs.elements((0, 1))]
+    };
+    assert_eq!(sizes("schema = 1"), [16, 16]);
+    assert_eq!(
+        sizes("schema = 1\n[ranges]\nsource = { size = 9 }\n"),
+        [9, 9],
+        "as long as what is declared"
+    );
+    let both = "schema = 1\n[ranges]\nsource = { size = 9 }\nresult = { size = 4 }\n";
+    assert_eq!(sizes(both), [9, 4]);
+    let inputs = arrays(both).unwrap();
+    assert!(inputs.is_read((0, 0)) && !inputs.is_read((0, 1)));
+    assert_eq!(inputs.longest_array(), 9);
+    let told = arrays("schema = 1\n[ranges]\nresult = { size = 4, lo = 0, hi = 1 }\n").unwrap_err();
+    assert!(
+        told.contains("a.ranges.toml:3:") && told.contains("only written"),
+        "{told}"
+    );
+}
+
+#[test]
+fn scalars_of_buffers_have_names_and_bytes() {
+    use bossage_bounds::ranges::{UNWRITTEN, scalar_names};
+    use bossage_bounds::{F32, Program};
+    let (module, info) = module_of(ARRAYS);
+    let names = scalar_names(&module, (0, 1), 2).unwrap();
+    assert_eq!(
+        names[..4],
+        ["result[0].x", "result[0].y", "result[0].z", "result[1].x"]
+    );
+    let program = Program::new(&module, &info, "main").unwrap();
+    let inputs = arrays("schema = 1\n[ranges]\nsource = { size = 2 }\n").unwrap();
+    let point = inputs.sample(&mut Seed::new(1), Style::Random);
+    let (bindings, _) = inputs.at::<F32>(&[&point]).unwrap();
+    // Two elements of sixteen bytes each, though the last one's padding holds nothing.
+    let bytes = bindings.to_bytes(&program, 0, 1).unwrap();
+    assert_eq!(bytes.len(), 32);
+    let scalars = program.scalars_of::<F32>((0, 1), &bytes).unwrap();
+    assert_eq!(scalars.len(), 6);
+    assert!(scalars.iter().all(|scalar| scalar.float() == Some(UNWRITTEN)));
+    assert_eq!(program.scalars_of::<F32>((0, 1), &bytes[..16]).unwrap().len(), 3);
+    assert_eq!(program.scalars_of::<F32>((0, 7), &bytes), None);
+}

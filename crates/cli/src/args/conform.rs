@@ -2,10 +2,13 @@
 
 use std::path::PathBuf;
 
+use super::emit::StageName;
+
 pub(crate) const EXAMPLE: &str = "\
 Examples:
   bossage conform
-  bossage conform parallax_offset --route wgsl,spirv --adapter llvmpipe --html conform.html";
+  bossage conform parallax_offset --route wgsl,spirv --adapter llvmpipe --html conform.html
+  bossage conform --shader examples/tone_map.wgsl --inputs 256 --seed 7";
 
 /// `bossage conform`.
 #[derive(Debug, clap::Args)]
@@ -13,7 +16,7 @@ pub(crate) struct Conform {
     /// Only cases whose id contains this
     pub(crate) filter: Option<String>,
     /// Also draw these scenes and compare every pixel
-    #[arg(long, value_name = "SCENE")]
+    #[arg(long, value_name = "SCENE", conflicts_with = "shader")]
     pub(crate) scene: Vec<PathBuf>,
     /// Only these routes from emitted code to numbers [default: all]
     #[arg(long, value_name = "ROUTES", value_delimiter = ',')]
@@ -22,13 +25,13 @@ pub(crate) struct Conform {
     #[arg(long, value_name = "ADAPTERS")]
     pub(crate) adapter: Vec<String>,
     /// Only the I-th of N parts of the cases, counted from 1
-    #[arg(long, value_name = "I/N")]
+    #[arg(long, value_name = "I/N", conflicts_with = "shader")]
     pub(crate) shard: Option<String>,
     /// Many more inputs a case
-    #[arg(long)]
+    #[arg(long, conflicts_with = "shader")]
     pub(crate) full: bool,
     /// Name the cases that would run, and run none
-    #[arg(long)]
+    #[arg(long, conflicts_with = "shader")]
     pub(crate) list: bool,
     /// Write the report as JSON (schema 1); - is standard output
     #[arg(long, value_name = "FILE")]
@@ -39,4 +42,50 @@ pub(crate) struct Conform {
     /// Write the report as a web page
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
+    #[command(flatten, next_help_heading = "A shader of your own")]
+    pub(crate) user: UserShader,
+    /// Run one request of another process: it comes in on standard input, answers go to standard output
+    #[arg(long, hide = true)]
+    pub(crate) serve: bool,
+}
+
+/// A shader that is not the library's.
+#[derive(Debug, clap::Args)]
+pub(crate) struct UserShader {
+    /// Run this shader (.wgsl, .wesl, .spv, GLSL) instead of the library, on inputs from their ranges, and judge it by the
+    /// accuracy rules and by comparing the routes
+    #[arg(long, value_name = "FILE")]
+    pub(crate) shader: Option<PathBuf>,
+    /// What its inputs may be [default: NAME.ranges.toml beside it, else inferred from names and types]
+    #[arg(long, value_name = "FILE", requires = "shader")]
+    pub(crate) ranges: Option<PathBuf>,
+    /// The stage of a shader whose file name does not tell it
+    #[arg(long, value_enum, requires = "shader")]
+    pub(crate) stage: Option<StageName>,
+    /// Only this entry point [default: all]
+    #[arg(long, value_name = "NAME", requires = "shader")]
+    pub(crate) entry: Option<String>,
+    /// How many inputs an entry point gets, chosen from its ranges
+    #[arg(long, value_name = "N", default_value_t = 64, requires = "shader", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    pub(crate) inputs: u32,
+    /// The seed of the inputs
+    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "shader")]
+    pub(crate) seed: u64,
+    /// Workgroups of a dispatch along x, y and z [default: what the ranges say, else one invocation an element of the longest array]
+    #[arg(long, value_name = "X,Y,Z", requires = "shader")]
+    pub(crate) workgroups: Option<String>,
+    /// Operations that an invocation may take on average before the shader counts as one that does not end
+    #[arg(long, value_name = "N", default_value_t = 1 << 20, requires = "shader", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) operations: u64,
+    /// Seconds that one input may take before its process is ended
+    #[arg(long, value_name = "SECONDS", default_value_t = 20.0, requires = "shader", value_parser = seconds)]
+    pub(crate) time_limit: f64,
+}
+
+/// A time that is finite and more than nothing.
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds > 0.0 && seconds <= 86400.0 => Ok(seconds),
+        _ => Err("write seconds, more than 0 and at most 86400".to_owned()),
+    }
 }

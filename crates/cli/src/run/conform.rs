@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use bossage_conformance::{CaseResult, Progress, Report, Route, Selection, Verdict as CaseVerdict, report};
 use bossage_runner::AdapterSelector;
 
+use super::conform_shader;
 use crate::Verdict;
 use crate::args::Global;
 use crate::args::conform::Conform;
@@ -16,25 +17,16 @@ use crate::nearest::suggestion;
 use crate::output::{self, Outputs};
 
 pub(crate) fn run(args: &Conform, global: &Global, console: Console) -> Result<Verdict> {
-    let selection = selection(args)?;
-    let cases = selection.cases().map_err(|error| explained(error, &selection))?;
-    if args.list {
-        console::print(
-            &cases
-                .iter()
-                .map(|case| format!("{}\n", case.id()))
-                .collect::<String>(),
-        )?;
-        return Ok(Verdict::Fine);
+    if args.serve {
+        return conform_shader::serve();
     }
-    drop(cases);
-    let files = [&args.json, &args.junit, &args.html]
-        .into_iter()
-        .flatten()
-        .filter(|path| !is_standard_output(path));
-    files.map(PathBuf::as_path).try_for_each(output::check_writable)?;
-    let (library, _) = inputs::library(global)?;
-    let report = bossage_conformance::run(&selection, &library, &mut Watch::new(console))?;
+    let selection = selection(args)?;
+    check_outputs(args)?;
+    let report = match &args.user.shader {
+        Some(file) => conform_shader::report(file, args, &selection, global, console)?,
+        None if args.list => return list(&selection),
+        None => library_report(&selection, global, console)?,
+    };
     write_reports(args, &report)?;
     if args.json.as_deref().is_some_and(is_standard_output) {
         console::print(&report::json::write(&report)?)?;
@@ -46,6 +38,32 @@ pub(crate) fn run(args: &Conform, global: &Global, console: Console) -> Result<V
     } else {
         Verdict::Failed
     })
+}
+
+fn list(selection: &Selection) -> Result<Verdict> {
+    let cases = selection.cases().map_err(|error| explained(error, selection))?;
+    let names: String = cases.iter().map(|case| format!("{}\n", case.id())).collect();
+    console::print(&names)?;
+    Ok(Verdict::Fine)
+}
+
+fn library_report(selection: &Selection, global: &Global, console: Console) -> Result<Report> {
+    // Before anything is run, so that a filter that finds nothing is answered at once.
+    selection.cases().map_err(|error| explained(error, selection))?;
+    let (library, _) = inputs::library(global)?;
+    Ok(bossage_conformance::run(
+        selection,
+        &library,
+        &mut Watch::new(console),
+    )?)
+}
+
+fn check_outputs(args: &Conform) -> Result<()> {
+    let files = [&args.json, &args.junit, &args.html]
+        .into_iter()
+        .flatten()
+        .filter(|path| !is_standard_output(path));
+    files.map(PathBuf::as_path).try_for_each(output::check_writable)
 }
 
 /// `-` is standard output.

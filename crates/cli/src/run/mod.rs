@@ -5,6 +5,7 @@ mod bake_gpu;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod conform;
+pub(crate) mod conform_shader;
 pub(crate) mod demo;
 pub(crate) mod doctor;
 pub(crate) mod emit;

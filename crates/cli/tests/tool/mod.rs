@@ -8,6 +8,8 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use serde_json::Value;
+
 /// What a run left.
 #[derive(Debug)]
 pub(crate) struct Run {
@@ -111,4 +113,31 @@ pub(crate) fn copy(from: &Path, to: &Path) {
             std::fs::copy(&from, &to).expect("the copy can be made");
         }
     }
+}
+
+/// Text as JSON.
+pub(crate) fn parsed(text: &str) -> Value {
+    serde_json::from_str(text).unwrap_or_else(|error| panic!("{error} in:\n{text}"))
+}
+
+/// Says why a test is skipped.
+#[expect(clippy::print_stderr, reason = "a skipped test says why")]
+fn say(line: &str) {
+    eprintln!("{line}");
+}
+
+/// Whether this machine has a driver's adapter. Where a run must have one, `BOSSAGE_REQUIRE` names it, and going without fails.
+pub(crate) fn has_adapter() -> bool {
+    let report = parsed(&bossage(&["doctor", "--json"]).exits(0).stdout);
+    let adapters = report["adapters"].as_array().unwrap();
+    let found = adapters.iter().any(|adapter| adapter["name"] != "embedded");
+    let required = std::env::var("BOSSAGE_REQUIRE").unwrap_or_default();
+    assert!(
+        found || !required.contains("lavapipe"),
+        "BOSSAGE_REQUIRE names an adapter, and none is here"
+    );
+    if !found {
+        say(&format!("SKIP: no driver; {}", report["how_to_get_an_adapter"]));
+    }
+    found
 }

@@ -1,0 +1,134 @@
+//! `bossage conform --shader`: a user's shader on all routes, judged without a reference.
+//!
+//! The shader is read, validated and given its inputs here; it is run by child processes of this program, which get everything from
+//! their standard input.
+
+use std::ffi::OsString;
+use std::io::{BufReader, stdin, stdout};
+use std::path::Path;
+use std::time::Duration;
+
+use bossage_conformance::user::{Children, Options, run as run_shader, serve as serve_request};
+use bossage_conformance::{Report, Selection};
+use bossage_translate::Shader;
+
+use super::conform::Watch;
+use crate::Verdict;
+use crate::args::Global;
+use crate::args::conform::{Conform, UserShader};
+use crate::console::Console;
+use crate::error::{Error, Result};
+use crate::inputs::{self, Inputs};
+use crate::numeric;
+use crate::options;
+
+/// The most workgroups along an axis: what every adapter takes.
+const MAX_WORKGROUPS: u32 = 65_535;
+
+/// Runs a shader.
+pub(crate) fn report(
+    file: &Path,
+    args: &Conform,
+    selection: &Selection,
+    global: &Global,
+    console: Console,
+) -> Result<Report> {
+    let shader = read(file, &args.user, global)?;
+    let declared = numeric::sidecar(file, args.user.ranges.as_deref())?;
+    let options = Options {
+        entry: args.user.entry.clone(),
+        filter: args.filter.clone(),
+        seed: args.user.seed,
+        inputs: args.user.inputs as usize,
+        workgroups: args.user.workgroups.as_deref().map(workgroups).transpose()?,
+        operations: args.user.operations,
+        arguments: arguments(file, &args.user),
+    };
+    let program = std::env::current_exe()
+        .map_err(|error| Error::Environment(format!("this program's own file cannot be found: {error}")))?;
+    let children = Children {
+        program,
+        arguments: ["conform", "--serve"].map(OsString::from).to_vec(),
+        time_limit: Duration::from_secs_f64(args.user.time_limit),
+    };
+    let report = run_shader(
+        &shader,
+        declared.as_ref(),
+        &options,
+        selection,
+        &children,
+        &mut Watch::new(console),
+    );
+    Ok(report?)
+}
+
+fn read(file: &Path, user: &UserShader, global: &Global) -> Result<Shader> {
+    if file.extension().is_some_and(|extension| extension == "toml") {
+        return Err(Error::Call(format!(
+            "{} is a scene; --shader takes a shader, --scene a scene",
+            file.display()
+        )));
+    }
+    let (library, _) = inputs::library(global)?;
+    let mut inputs = Inputs::default();
+    inputs.add(file, user.stage.map(options::stage), &library)?;
+    let module = inputs.modules.first();
+    module
+        .ok_or_else(|| Error::Call(format!("{} holds no shader", file.display())))?
+        .parse_labelled()
+}
+
+/// What runs the same again.
+fn arguments(file: &Path, user: &UserShader) -> Vec<String> {
+    let mut list = vec!["--shader".to_owned(), file.display().to_string()];
+    let mut add = |flag: &str, value: Option<String>| {
+        list.extend(value.into_iter().flat_map(|value| [flag.to_owned(), value]));
+    };
+    add(
+        "--ranges",
+        user.ranges.as_ref().map(|path| path.display().to_string()),
+    );
+    add(
+        "--stage",
+        user.stage.map(|stage| options::stage(stage).to_string()),
+    );
+    add("--inputs", Some(user.inputs.to_string()));
+    add("--seed", Some(user.seed.to_string()));
+    add("--operations", Some(user.operations.to_string()));
+    add("--workgroups", user.workgroups.clone());
+    list
+}
+
+fn workgroups(text: &str) -> Result<[u32; 3]> {
+    let numbers: Option<Vec<u32>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
+    let numbers = numbers.filter(|list| list.iter().all(|n| (1..=MAX_WORKGROUPS).contains(n)));
+    match numbers.as_deref() {
+        Some([x]) => Ok([*x, 1, 1]),
+        Some([x, y]) => Ok([*x, *y, 1]),
+        Some([x, y, z]) => Ok([*x, *y, *z]),
+        Some(_) | None => Err(Error::Call(format!(
+            "--workgroups {text}: write one to three numbers from 1 to {MAX_WORKGROUPS}, for example 4,2,1"
+        ))),
+    }
+}
+
+/// The child's side.
+pub(crate) fn serve() -> Result<Verdict> {
+    serve_request(&mut BufReader::new(stdin().lock()), &mut stdout().lock())
+        .map_err(|error| Error::Call(format!("--serve: {error}")))?;
+    Ok(Verdict::Fine)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::workgroups;
+
+    #[test]
+    fn one_to_three_numbers_are_workgroups() {
+        assert_eq!(workgroups("4").unwrap(), [4, 1, 1]);
+        assert_eq!(workgroups("4, 2,1").unwrap(), [4, 2, 1]);
+        for wrong in ["", "0", "1,0", "1,2,3,4", "-1", "70000", "a"] {
+            assert_eq!(workgroups(wrong).unwrap_err().exit_code(), 2, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! `bossage conform --shader`: a user's shader on all routes, and everything that can be wrong with it.
+
+mod tool;
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+use tool::{Run, bossage, bossage_without_adapter, has_adapter, parsed, repository, text};
+
+/// A folder with files in it.
+fn folder(files: &[(&str, &str)]) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+fn conform(folder: &TempDir, file: &str, more: &[&str]) -> Run {
+    let path = folder.path().join(file);
+    bossage(&[&["conform", "--shader", text(&path)], more].concat())
+}
+
+const SUM: &str = "
+@group(0) @binding(0) var<storage, read> source: array<vec2f>;
+@group(0) @binding(1) var<storage, read_write> result: array<f32>;
+@compute @workgroup_size(16) fn sum(@builtin(global_invocation_id) id: vec3u) {
+    result[id.x] = source[id.x].x + source[id.x].y;
+}";
+
+#[test]
+fn the_example_passes_on_every_route_and_is_reported() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let example = repository("examples/tone_map.wgsl");
+    let (json, junit, html) = (path("a.json"), path("a.xml"), path("a.html"));
+    let run = bossage(&[
+        "conform",
+        "--shader",
+        text(&example),
+        "--inputs",
+        "8",
+        "--json",
+        text(&json),
+        "--junit",
+        text(&junit),
+        "--html",
+        text(&html),
+    ])
+    .exits(0);
+    assert!(run.stdout.contains("tone_map"), "{}", run.stdout);
+    let report = parsed(&fs::read_to_string(json).unwrap());
+    let cases = report["cases"].as_array().unwrap();
+    let ran: Vec<_> = cases.iter().filter(|case| case["verdict"] != "skip").collect();
+    let of = |route: &str| ran.iter().any(|case| case["route"] == route);
+    assert!(of("embedded"), "{report}");
+    assert!(!has_adapter() || (of("wgsl") && of("spirv")), "{report}");
+    assert_eq!(report["environment"]["seed"], 1);
+    let first = ran.iter().find(|case| case["route"] == "embedded").unwrap();
+    assert_eq!(first["outputs"], 8 * 400);
+    assert!(first["worst"]["place"].as_str().unwrap().starts_with("mapped["));
+    assert!(
+        fs::read_to_string(junit)
+            .unwrap()
+            .contains("tone_map/ranges:entry=tone_map;n=8;seed=1")
+    );
+    assert!(fs::read_to_string(html).unwrap().contains("tone_map"));
+}
+
+#[test]
+fn the_command_that_a_report_names_runs_the_same_again() {
+    let folder = folder(&[("sum.wgsl", SUM)]);
+    let run = conform(
+        &folder,
+        "sum.wgsl",
+        &["--inputs", "4", "--seed", "9", "--json", "-"],
+    )
+    .exits(0);
+    let report = parsed(&run.stdout);
+    let find = |report: &serde_json::Value| {
+        let cases = report["cases"].as_array().unwrap().clone();
+        cases
+            .into_iter()
+            .find(|case| case["route"] == "embedded")
+            .unwrap()
+    };
+    let case = find(&report);
+    let rerun = case["rerun"].as_str().unwrap();
+    let words: Vec<String> = rerun.split(' ').map(|word| word.replace('\'', "")).collect();
+    let mut words: Vec<&str> = words.iter().map(String::as_str).collect();
+    assert_eq!(words.remove(0), "bossage");
+    words.extend(["--json", "-"]);
+    let again = parsed(&bossage(&words).exits(0).stdout);
+    assert_eq!(again["cases"].as_array().unwrap().len(), 1);
+    assert_eq!(find(&again), case);
+}
+
+#[test]
+fn other_languages_take_the_same_road() {
+    let glsl = "#version 450
+        layout(local_size_x = 16) in;
+        layout(set = 0, binding = 0) readonly buffer Source { vec4 values[]; } source;
+        layout(set = 0, binding = 1) buffer Result { float values[]; } result;
+        void main() {
+            uint i = gl_GlobalInvocationID.x;
+            result.values[i] = dot(source.values[i], vec4(1.0, 2.0, 3.0, 4.0));
+        }";
+    let folder = folder(&[("weigh.comp", glsl), ("sum.wgsl", SUM)]);
+    conform(&folder, "weigh.comp", &["--inputs", "4"]).exits(0);
+    let (shader, out) = (folder.path().join("sum.wgsl"), folder.path().join("out"));
+    bossage(&["emit", text(&shader), "-t", "spirv", "-o", text(&out)]).exits(0);
+    let emitted = tool::entries(&out)
+        .into_iter()
+        .find(|name| name.ends_with(".spv"))
+        .unwrap();
+    bossage(&["conform", "--shader", text(&out.join(emitted)), "--inputs", "4"]).exits(0);
+}
+
+#[test]
+fn without_a_driver_the_evaluator_runs_it() {
+    let folder = folder(&[("sum.wgsl", SUM)]);
+    let shader = folder.path().join("sum.wgsl");
+    bossage_without_adapter(&["conform", "--shader", text(&shader), "--inputs", "4"]).exits(0);
+}
+
+/// A driver does not come back from this one within a day; the time limit ends the process, and the other routes have their turn.
+#[test]
+fn a_hang_is_a_verdict_and_the_rest_goes_on() {
+    if !has_adapter() {
+        return;
+    }
+    let endless = "
+        @group(0) @binding(0) var<storage, read_write> result: array<u32>;
+        @compute @workgroup_size(1) fn spin() {
+            var x = result[0];
+            for (var i = 0u; i < 60000u; i++) { for (var j = 0u; j < 60000u; j++) { for (var k = 0u; k < 60000u; k++) {
+                x = x * 1664525u + 1013904223u + (x >> 3u);
+            } } }
+            result[0] = x;
+        }";
+    let folder = folder(&[("spin.wgsl", endless)]);
+    let start = Instant::now();
+    let run = conform(
+        &folder,
+        "spin.wgsl",
+        &["--inputs", "2", "--time-limit", "1", "--json", "-"],
+    )
+    .exits(1);
+    assert!(start.elapsed() < Duration::from_secs(120), "it was not ended");
+    let report = parsed(&run.stdout);
+    let cases = report["cases"].as_array().unwrap();
+    let reason = |route: &str| {
+        let case = cases
+            .iter()
+            .find(|case| case["route"] == route && case["id"].as_str().unwrap().contains("/ranges"));
+        let case = case.unwrap_or_else(|| panic!("no result of {route} in {report}"));
+        (
+            case["verdict"].clone(),
+            case["reason"].as_str().unwrap().to_owned(),
+        )
+    };
+    for route in ["wgsl", "spirv"] {
+        let (verdict, reason) = reason(route);
+        assert_eq!(verdict, "fail", "{reason}");
+        assert!(reason.contains("did not end within 1 s"), "{reason}");
+    }
+    let (verdict, reason) = reason("embedded");
+    assert_eq!(verdict, "skip", "{reason}");
+    assert!(reason.contains("budget"), "{reason}");
+}
+
+#[test]
+fn what_is_wrong_with_the_call_exits_with_2() {
+    let vertex = "@vertex fn place(@location(0) p: vec4f) -> @builtin(position) vec4f { return p; }";
+    let silent = "@group(0) @binding(0) var<storage, read> a: array<f32>;
+        @compute @workgroup_size(1) fn main() { let x = a[0]; }";
+    let folder = folder(&[
+        ("sum.wgsl", SUM),
+        ("vertex.wgsl", vertex),
+        ("silent.wgsl", silent),
+        ("broken.wgsl", "@compute fn main() { let x = ; }"),
+        (
+            "misfit.toml",
+            "schema = 1\n[ranges]\nsauce = { lo = 0, hi = 1 }\n",
+        ),
+        (
+            "upside.toml",
+            "schema = 1\n[ranges]\nsource = { lo = 1, hi = 0 }\n",
+        ),
+        ("scene.toml", "schema = 1\n"),
+    ]);
+    let ranges = |name: &str| folder.path().join(name).display().to_string();
+    let (misfit, upside) = (ranges("misfit.toml"), ranges("upside.toml"));
+    let wrong = |file: &str, more: &[&str], words: &[&str]| {
+        let run = conform(&folder, file, more).exits(2).says(words);
+        assert_eq!(run.stdout, "");
+    };
+    wrong(
+        "sum.wgsl",
+        &["--ranges", &misfit],
+        &["misfit.toml:3:1", "sauce", "did you mean `source"],
+    );
+    wrong("sum.wgsl", &["--ranges", &upside], &["upside.toml:3:", "lo"]);
+    wrong("sum.wgsl", &["--ranges", "nowhere.toml"], &["nowhere.toml"]);
+    wrong(
+        "sum.wgsl",
+        &["--entry", "some"],
+        &["no entry point `some`", "sum (compute)"],
+    );
+    wrong(
+        "sum.wgsl",
+        &["--workgroups", "0"],
+        &["--workgroups 0", "for example"],
+    );
+    wrong("sum.wgsl", &["--inputs", "0"], &["--inputs"]);
+    wrong("sum.wgsl", &["--time-limit", "-1"], &["--time-limit"]);
+    wrong("sum.wgsl", &["--scene", "a.toml"], &["--scene"]);
+    wrong("sum.wgsl", &["--route", "spriv"], &["did you mean spirv?"]);
+    wrong("sum.wgsl", &["nothing"], &["no case", "nothing"]);
+    wrong("vertex.wgsl", &[], &["vertex.wgsl", "place (vertex)"]);
+    wrong("broken.wgsl", &[], &["broken.wgsl:1:", "^"]);
+    wrong("missing.wgsl", &[], &["missing.wgsl"]);
+    wrong("scene.toml", &[], &["is a scene"]);
+    bossage(&["conform", "--entry", "main"])
+        .exits(2)
+        .says(&["--shader"]);
+    // Nothing to compare is said, and nothing passed.
+    let run = conform(&folder, "silent.wgsl", &[]).exits(1);
+    assert!(run.stdout.contains("it writes no buffer"), "{}", run.stdout);
+}

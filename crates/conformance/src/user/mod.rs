@@ -1,0 +1,276 @@
+//! Conformance of a user's shader: no reference is needed.
+//!
+//! Inputs are chosen by seed from declared or inferred ranges (`bossage_bounds::ranges`); each route on each adapter runs them, in a
+//! process of its own; and every output is judged against the acceptance interval that the shader's own IR has at those very inputs.
+//! Then the results of the routes are compared with each other. So a case asks whether a driver and our writers compute *what the shader
+//! says*; whether the shader says what its author meant it cannot know.
+//!
+//! Per entry point and cell (route, adapter) there are two results: `SHADER/ranges:entry=E;n=N;seed=S`, the outputs against the
+//! intervals, and `SHADER/agreement:…`, the outputs against those of the first cell that ran (which has no such result). Results may differ wherever the interval
+//! admits both; they disagree where it does not. Where the rules say nothing (overflow, division by zero) results that differ are a
+//! warning: allowed, but not portable.
+//!
+//! The error in ULPs is measured against the formula in f64, where that lies in the interval.
+//!
+//! Limits: storage textures, depth, layered, multisampled and integer textures, push constants and binding arrays are not bound, which
+//! is said as a skip. Compute entry points are run; those of other stages are skipped.
+
+mod agree;
+mod child;
+mod expect;
+mod judge;
+mod plan;
+mod request;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+
+use bossage_bounds::ranges::Declared;
+use bossage_bounds::{F32, Scalar};
+use bossage_translate::Shader;
+use serde::{Deserialize, Serialize};
+
+pub use child::Children;
+pub use plan::Plan;
+pub use request::{Buffer, Job, Request, Texels, execute, serve};
+
+use crate::case::Outcome;
+use crate::case_id::CaseId;
+use crate::compare::Comparison;
+use crate::error::Error;
+use crate::report::{CaseResult, Report};
+use crate::route::Route;
+use crate::run::{Progress, Selection, environment};
+use crate::verdict::Verdict;
+
+/// Inputs of an entry point in an ordinary run.
+pub const ORDINARY: usize = 64;
+
+/// Operations of an invocation in an ordinary run.
+pub const OPERATIONS: u64 = 1 << 20;
+
+/// The oracle of the outputs.
+pub const BASIS: [&str; 1] = ["accuracy rules over the shader's IR"];
+
+/// What of a shader is run, and with what.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Only this entry point; all when `None`.
+    pub entry: Option<String>,
+    /// Only cases with this in their name.
+    pub filter: Option<String>,
+    /// The seed of the inputs.
+    pub seed: u64,
+    /// How many inputs an entry point gets.
+    pub inputs: usize,
+    /// Workgroups of a dispatch; else what the sidecar says, else enough for one invocation an element of the longest array.
+    pub workgroups: Option<[u32; 3]>,
+    /// Operations that an invocation may take on average where its outputs' intervals are computed.
+    pub operations: u64,
+    /// What the command line needs besides a case's name to run it again.
+    pub arguments: Vec<String>,
+}
+
+/// Who runs a request: [`Children`], or [`InProcess`].
+pub trait Executor {
+    /// Runs it to its end, or as far as it goes.
+    fn execute(&self, request: &Request) -> Execution;
+}
+
+/// Runs requests in this process: what crashes or hangs takes it along.
+#[derive(Clone, Copy, Debug)]
+pub struct InProcess;
+
+impl Executor for InProcess {
+    fn execute(&self, request: &Request) -> Execution {
+        execute(request)
+    }
+}
+
+/// What came of a request.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Execution {
+    /// For each job that ended, its written buffers.
+    pub done: Vec<Vec<Vec<u8>>>,
+    /// Why not all did.
+    pub stopped: Option<Stop>,
+}
+
+/// Why a request did not run to its end.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stop {
+    /// The route or the adapter lacks something, or gave up at a limit: a skip.
+    Lacks(String),
+    /// It failed, crashed, or did not end.
+    Failed(String),
+}
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Lacks(reason) | Self::Failed(reason) => f.write_str(reason),
+        }
+    }
+}
+
+/// A route on an adapter, with what it returned, job by job.
+struct Cell {
+    route: Route,
+    adapter: String,
+    got: Vec<Vec<Scalar<F32>>>,
+    stopped: Option<Stop>,
+}
+
+impl Cell {
+    fn name(&self) -> String {
+        format!("{} on {}", self.route, self.adapter)
+    }
+}
+
+/// Runs a shader's entry points on the machines of a selection; of the selection only routes and adapters count.
+///
+/// # Errors
+/// [`Error::NoEntryPoint`] when there is nothing to run, [`Error::Ranges`] when the declared ranges do not fit the shader,
+/// [`Error::NoSuchCase`], and as [`Selection::pairs`]. A shader that fails is a verdict, not an error.
+pub fn run(
+    shader: &Shader,
+    declared: Option<&Declared>,
+    options: &Options,
+    selection: &Selection,
+    executor: &dyn Executor,
+    progress: &mut dyn Progress,
+) -> Result<Report, Error> {
+    let plans = plan::plans(shader, declared, options)?;
+    let pairs = selection.pairs()?;
+    let cells: Vec<(Route, String)> = pairs
+        .adapters
+        .iter()
+        .flat_map(|(info, routes)| routes.iter().map(|route| (*route, info.name.clone())))
+        .collect();
+    let wanted = |id: &CaseId| options.filter.as_deref().is_none_or(|filter| id.matches(filter));
+    let ids: Vec<CaseId> = plans
+        .iter()
+        .flat_map(|plan| [plan.id("ranges"), plan.id("agreement")])
+        .collect();
+    if !ids.iter().any(wanted) {
+        return Err(Error::NoSuchCase {
+            filter: options.filter.clone().unwrap_or_default(),
+            known: ids.len(),
+        });
+    }
+    progress.start(cells.len() * ids.iter().filter(|id| wanted(id)).count());
+    let mut results = Vec::new();
+    for plan in plans
+        .iter()
+        .filter(|plan| wanted(&plan.id("ranges")) || wanted(&plan.id("agreement")))
+    {
+        let mut of_plan = results_of(plan, shader, &cells, options, executor);
+        of_plan.retain(|result| wanted(&result.id));
+        of_plan.iter().for_each(|result| progress.done(result));
+        results.extend(of_plan);
+    }
+    let mut environment = environment(selection, &pairs);
+    environment.seed = options.seed;
+    Ok(Report::new(environment, results))
+}
+
+fn results_of(
+    plan: &Plan,
+    shader: &Shader,
+    cells: &[(Route, String)],
+    options: &Options,
+    executor: &dyn Executor,
+) -> Vec<CaseResult> {
+    let ready = match &plan.ready {
+        Ok(ready) => ready,
+        Err(reason) => {
+            let skipped = |(route, adapter): &(Route, String)| {
+                let cell = Cell {
+                    route: *route,
+                    adapter: adapter.clone(),
+                    got: Vec::new(),
+                    stopped: None,
+                };
+                ["ranges", "agreement"].map(|generator| {
+                    result(plan, &cell, options, generator, Outcome::skipped(reason.clone()))
+                })
+            };
+            return cells.iter().flat_map(skipped).collect();
+        }
+    };
+    let expected = expect::of(ready, shader);
+    let ran: Vec<Cell> = cells
+        .iter()
+        .map(|(route, adapter)| {
+            let execution = executor.execute(&ready.request(&plan.shader, *route, adapter));
+            let got = execution.done.iter().map(|buffers| ready.decode(buffers));
+            let (got, stopped) = match got.collect::<Option<Vec<_>>>() {
+                Some(got) => (got, execution.stopped),
+                None => (
+                    Vec::new(),
+                    Some(Stop::Failed("it returned buffers of another size".to_owned())),
+                ),
+            };
+            Cell {
+                route: *route,
+                adapter: adapter.clone(),
+                got,
+                stopped,
+            }
+        })
+        .collect();
+    let judged = ran.iter().map(|cell| {
+        let outcome = judge::outcome(ready, &expected, cell);
+        result(plan, cell, options, "ranges", outcome)
+    });
+    let agreed = agree::outcomes(ready, &expected, &ran);
+    let agreed = ran
+        .iter()
+        .zip(agreed)
+        .filter_map(|(cell, outcome)| Some(result(plan, cell, options, "agreement", outcome?)));
+    judged.chain(agreed).collect()
+}
+
+fn result(plan: &Plan, cell: &Cell, options: &Options, generator: &str, outcome: Outcome) -> CaseResult {
+    let Outcome {
+        inputs,
+        comparison,
+        verdict,
+        reason,
+    } = outcome;
+    CaseResult {
+        id: plan.id(generator),
+        route: cell.route,
+        adapter: cell.adapter.clone(),
+        basis: if generator == "ranges" {
+            BASIS.to_vec()
+        } else {
+            vec!["the other routes"]
+        },
+        arguments: options.arguments.clone(),
+        inputs,
+        outputs: comparison.outputs,
+        undecided: comparison.undecided,
+        forked: comparison.forked,
+        refused: comparison.refused,
+        verdict,
+        worst: comparison.worst,
+        reason,
+    }
+}
+
+/// An outcome without a refusal: a pass, or a warning with its reason.
+fn accepted(inputs: usize, comparison: Comparison, warning: Option<String>) -> Outcome {
+    Outcome {
+        inputs,
+        comparison,
+        verdict: if warning.is_some() {
+            Verdict::Warn
+        } else {
+            Verdict::Pass
+        },
+        reason: warning,
+    }
+}

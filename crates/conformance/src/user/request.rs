@@ -1,0 +1,296 @@
+//! What is run, as a message: code, what it binds and how often, for one route on one adapter. And what comes back.
+//!
+//! A message holds everything, so that the process that runs it reads no file and depends on nothing that may change meanwhile. Lines of
+//! JSON in both directions; bytes are base64.
+
+use std::collections::BTreeMap;
+use std::io::{BufRead, Write};
+
+use bossage_runner::{
+    AdapterSelector, BufferData, ComputeJob, Machine, Resources, SamplerSettings, TextureData, slot,
+};
+use bossage_shaders::AssembledShader;
+use serde::{Deserialize, Serialize};
+
+use super::{Execution, Stop};
+use crate::case::with_causes;
+use crate::route::{Prepared, Route};
+
+/// Bytes of address space that a process which runs a user's shader may take: a driver that compiles with LLVM needs two or three.
+const MEMORY_LIMIT: u64 = 16 << 30;
+
+/// Dispatches of one entry point by one route on one adapter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Request {
+    /// The route's name.
+    pub route: String,
+    /// The adapter's name.
+    pub adapter: String,
+    /// What messages call the shader.
+    pub name: String,
+    /// The code that every route starts from.
+    pub wgsl: String,
+    /// The entry point's name in it.
+    pub entry: String,
+    /// What to run, one after the other.
+    pub jobs: Vec<Job>,
+}
+
+/// One dispatch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Job {
+    /// All buffers.
+    pub buffers: Vec<Buffer>,
+    /// All textures.
+    pub textures: Vec<Texels>,
+    /// Places of samplers, which all repeat and filter linearly.
+    pub samplers: Vec<(u32, u32)>,
+    /// How many workgroups.
+    pub workgroups: [u32; 3],
+}
+
+/// A buffer before the shader runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Buffer {
+    /// Bind group and binding number.
+    pub binding: (u32, u32),
+    /// Its bytes.
+    #[serde(with = "text")]
+    pub bytes: Vec<u8>,
+    /// Whether it is read back.
+    pub written: bool,
+}
+
+/// A texture of one level of 32-bit floats.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Texels {
+    /// Bind group and binding number.
+    pub binding: (u32, u32),
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Whether it is a cube, of six faces.
+    pub cube: bool,
+    /// Four floats a texel, row by row, face by face.
+    #[serde(with = "text")]
+    pub bytes: Vec<u8>,
+}
+
+/// What the process says, a line each.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Said {
+    /// The code is prepared, the adapter open.
+    Ready,
+    /// A job is done: its written buffers, in the order of the job.
+    Done(Vec<Bytes>),
+    /// Nothing more comes.
+    Stopped(Stop),
+}
+
+/// Bytes in a message.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Bytes(#[serde(with = "text")] pub(super) Vec<u8>);
+
+/// Bytes as text.
+mod text {
+    use base64::Engine;
+    use base64::prelude::BASE64_STANDARD;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(bytes: &[u8], serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(&BASE64_STANDARD.encode(bytes))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<u8>, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        BASE64_STANDARD.decode(text).map_err(serde::de::Error::custom)
+    }
+}
+
+/// Runs one request from `input`, in this process and within a limit of memory, and answers on `output`.
+///
+/// # Errors
+/// When `input` is no request, or `output` is closed.
+pub fn serve(input: &mut dyn BufRead, output: &mut dyn Write) -> std::io::Result<()> {
+    limit_memory();
+    let request: Request = serde_json::from_reader(input)?;
+    let mut closed = Ok(());
+    let mut say = |said: Said| {
+        if closed.is_ok() {
+            closed = line(output, &said);
+        }
+    };
+    if let Err(stop) = run(&request, &mut say) {
+        say(Said::Stopped(stop));
+    }
+    closed
+}
+
+fn line(output: &mut dyn Write, said: &Said) -> std::io::Result<()> {
+    serde_json::to_writer(&mut *output, said)?;
+    output.write_all(b"\n")?;
+    output.flush()
+}
+
+/// Where it cannot be limited the machine's memory is the limit.
+fn limit_memory() {
+    #[cfg(unix)]
+    {
+        let _ = rlimit::Resource::AS.set(MEMORY_LIMIT, MEMORY_LIMIT);
+    }
+}
+
+/// The same in this process, without limits.
+#[must_use]
+pub fn execute(request: &Request) -> Execution {
+    let mut execution = Execution::default();
+    let mut hear = |said: Said| match said {
+        Said::Ready | Said::Stopped(_) => {}
+        Said::Done(buffers) => execution
+            .done
+            .push(buffers.into_iter().map(|bytes| bytes.0).collect()),
+    };
+    let stopped = run(request, &mut hear).err();
+    Execution { stopped, ..execution }
+}
+
+fn run(request: &Request, say: &mut dyn FnMut(Said)) -> Result<(), Stop> {
+    let route: Route = request
+        .route
+        .parse()
+        .map_err(|error| Stop::Failed(format!("{error}")))?;
+    let assembled = AssembledShader {
+        name: request.name.clone(),
+        wgsl: request.wgsl.clone(),
+        features: Vec::new(),
+        modules: Vec::new(),
+    };
+    let prepared = route.prepare(&assembled).map_err(unprepared)?;
+    let machine = bossage_embedded::open(&AdapterSelector::named(&request.adapter)).map_err(|e| stop(&e))?;
+    say(Said::Ready);
+    for job in &request.jobs {
+        let buffers = job.run(request, &prepared, machine.as_ref())?;
+        say(Said::Done(buffers));
+    }
+    Ok(())
+}
+
+impl Job {
+    fn run(&self, request: &Request, prepared: &Prepared, machine: &dyn Machine) -> Result<Vec<Bytes>, Stop> {
+        let shader = prepared.shader(&request.entry).map_err(Stop::Failed)?;
+        let textures: Vec<TextureData> = self
+            .textures
+            .iter()
+            .map(Texels::data)
+            .collect::<Result<_, _>>()
+            .map_err(|e| stop(&e))?;
+        let job = ComputeJob {
+            name: &request.entry,
+            shader,
+            resources: self.resources(&textures),
+            workgroups: self.workgroups,
+        };
+        let output = job.run(machine).map_err(|e| stop(&e))?;
+        let named = |binding: (u32, u32)| {
+            let described = shader
+                .entry
+                .bindings
+                .iter()
+                .find(|b| (b.group, b.binding) == binding);
+            let bytes = described.and_then(|b| output.buffers.get(&b.name));
+            bytes
+                .cloned()
+                .map(Bytes)
+                .ok_or_else(|| Stop::Failed(format!("{} was not read back", slot(binding.0, binding.1))))
+        };
+        self.buffers
+            .iter()
+            .filter(|buffer| buffer.written)
+            .map(|buffer| named(buffer.binding))
+            .collect()
+    }
+
+    fn resources<'a>(&'a self, textures: &'a [TextureData]) -> Resources<'a> {
+        let key = |(group, binding): (u32, u32)| slot(group, binding);
+        let samplers = self.samplers.iter();
+        Resources {
+            uniforms: BTreeMap::new(),
+            buffers: self
+                .buffers
+                .iter()
+                .map(|buffer| (key(buffer.binding), BufferData::Bytes(&buffer.bytes)))
+                .collect(),
+            textures: self
+                .textures
+                .iter()
+                .map(|texels| key(texels.binding))
+                .zip(textures)
+                .collect(),
+            samplers: samplers
+                .map(|&at| (key(at), SamplerSettings::default()))
+                .collect(),
+        }
+    }
+}
+
+impl Texels {
+    fn data(&self) -> Result<TextureData, bossage_runner::Error> {
+        let [width, height] = self.size;
+        let texels: Vec<[f32; 4]> = self
+            .bytes
+            .as_chunks::<16>()
+            .0
+            .iter()
+            .map(|texel| bytemuck::pod_read_unaligned(texel))
+            .collect();
+        if !self.cube {
+            return Ok(TextureData::rgba32f(width, height, &texels));
+        }
+        let face = (width * height).max(1) as usize;
+        let faces: Vec<&[[f32; 4]]> = texels.chunks(face).collect();
+        let name = slot(self.binding.0, self.binding.1);
+        TextureData::cube(&name, width, bossage_runner::TexelFormat::Rgba32Float, &faces)
+    }
+}
+
+/// What a language or its writer cannot express is a lack of the route.
+fn unprepared(text: String) -> Stop {
+    if text.starts_with("error[unsupported]") {
+        Stop::Lacks(text)
+    } else {
+        Stop::Failed(text)
+    }
+}
+
+/// What the machine lacks is a skip; everything else is a failure of the shader, the route or the driver.
+fn stop(error: &bossage_runner::Error) -> Stop {
+    use bossage_runner::Error;
+    let text = with_causes(error);
+    match error {
+        Error::Unsupported { .. }
+        | Error::Interface { .. }
+        | Error::GaveUp { .. }
+        | Error::TooLarge { .. } => Stop::Lacks(text),
+        // wgpu has no kind of error of its own for what the device cannot do.
+        Error::Validation { message, .. } if message.contains("requires capability") => Stop::Lacks(text),
+        Error::NoAdapter
+        | Error::NoSuchAdapter { .. }
+        | Error::Open { .. }
+        | Error::Validation { .. }
+        | Error::OutOfMemory { .. }
+        | Error::Internal { .. }
+        | Error::Lost { .. }
+        | Error::StagesDisagree { .. }
+        | Error::MixedRoutes { .. }
+        | Error::MissingResource { .. }
+        | Error::WrongResource { .. }
+        | Error::UnknownResource { .. }
+        | Error::MissingUniform { .. }
+        | Error::BadUniform { .. }
+        | Error::Mesh { .. }
+        | Error::Texture { .. }
+        | Error::Target { .. }
+        | Error::NotSpirv { .. }
+        | Error::Length { .. } => Stop::Failed(text),
+    }
+}
