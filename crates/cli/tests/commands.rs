@@ -6,7 +6,6 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
 use tool::{Run, bossage, bossage_without_adapter, copy, entries, has_adapter, parsed, repository, text};
 
 #[test]

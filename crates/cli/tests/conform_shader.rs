@@ -124,50 +124,61 @@ fn without_a_driver_the_evaluator_runs_it() {
     bossage_without_adapter(&["conform", "--shader", text(&shader), "--inputs", "4"]).exits(0);
 }
 
-/// A driver does not come back from this one within a day; the time limit ends the process, and the other routes have their turn.
+/// Some minutes of work for a software driver, whose loops end by themselves after 65,536 rounds: hence so many of them. The time limit
+/// ends the process, and the other routes have their turn.
 #[test]
 fn a_hang_is_a_verdict_and_the_rest_goes_on() {
     if !has_adapter() {
         return;
     }
-    let endless = "
-        @group(0) @binding(0) var<storage, read_write> result: array<u32>;
-        @compute @workgroup_size(1) fn spin() {
-            var x = result[0];
-            for (var i = 0u; i < 60000u; i++) { for (var j = 0u; j < 60000u; j++) { for (var k = 0u; k < 60000u; k++) {
-                x = x * 1664525u + 1013904223u + (x >> 3u);
-            } } }
-            result[0] = x;
-        }";
-    let folder = folder(&[("spin.wgsl", endless)]);
+    let spin = "for (var i = 0u; i < 60000u; i++) { x = x * 1664525u + 1013904223u + (x >> 3u); }";
+    let endless = format!(
+        "@group(0) @binding(0) var<storage, read_write> result: array<u32>;
+        @compute @workgroup_size(64) fn spin(@builtin(global_invocation_id) id: vec3u) {{
+            var x = id.x;
+            {}
+            result[id.x] = x;
+        }}",
+        spin.repeat(60)
+    );
+    let folder = folder(&[("spin.wgsl", &endless)]);
     let start = Instant::now();
+    let more = [
+        "--inputs",
+        "2",
+        "--time-limit",
+        "1",
+        "--workgroups",
+        "2048",
+        "--operations",
+        "1000",
+    ];
     let run = conform(
         &folder,
         "spin.wgsl",
-        &["--inputs", "2", "--time-limit", "1", "--json", "-"],
+        &[more.as_slice(), &["--json", "-"]].concat(),
     )
     .exits(1);
     assert!(start.elapsed() < Duration::from_secs(120), "it was not ended");
     let report = parsed(&run.stdout);
     let cases = report["cases"].as_array().unwrap();
-    let reason = |route: &str| {
+    let of = |route: &str| {
         let case = cases
             .iter()
             .find(|case| case["route"] == route && case["id"].as_str().unwrap().contains("/ranges"));
-        let case = case.unwrap_or_else(|| panic!("no result of {route} in {report}"));
-        (
-            case["verdict"].clone(),
-            case["reason"].as_str().unwrap().to_owned(),
-        )
+        case.unwrap_or_else(|| panic!("no result of {route} in {report}"))
     };
     for route in ["wgsl", "spirv"] {
-        let (verdict, reason) = reason(route);
-        assert_eq!(verdict, "fail", "{reason}");
+        let case = of(route);
+        assert_eq!(case["verdict"], "fail", "{case}");
+        let reason = case["reason"].as_str().unwrap();
         assert!(reason.contains("did not end within 1 s"), "{reason}");
     }
-    let (verdict, reason) = reason("embedded");
-    assert_eq!(verdict, "skip", "{reason}");
-    assert!(reason.contains("budget"), "{reason}");
+    assert_ne!(
+        of("embedded")["verdict"],
+        "pass",
+        "our evaluator gives up, or is ended"
+    );
 }
 
 #[test]
@@ -182,7 +193,7 @@ fn what_is_wrong_with_the_call_exits_with_2() {
         ("broken.wgsl", "@compute fn main() { let x = ; }"),
         (
             "misfit.toml",
-            "schema = 1\n[ranges]\nsauce = { lo = 0, hi = 1 }\n",
+            "schema = 1\n[ranges]\n\"sourse[]\" = { lo = 0, hi = 1 }\n",
         ),
         (
             "upside.toml",
@@ -199,7 +210,7 @@ fn what_is_wrong_with_the_call_exits_with_2() {
     wrong(
         "sum.wgsl",
         &["--ranges", &misfit],
-        &["misfit.toml:3:1", "sauce", "did you mean `source"],
+        &["misfit.toml:3:1", "sourse", "did you mean `source[]`"],
     );
     wrong("sum.wgsl", &["--ranges", &upside], &["upside.toml:3:", "lo"]);
     wrong("sum.wgsl", &["--ranges", "nowhere.toml"], &["nowhere.toml"]);
@@ -213,8 +224,13 @@ fn what_is_wrong_with_the_call_exits_with_2() {
         &["--workgroups", "0"],
         &["--workgroups 0", "for example"],
     );
+    wrong(
+        "sum.wgsl",
+        &["--workgroups", "65535,65535"],
+        &["invocations", "--workgroups"],
+    );
     wrong("sum.wgsl", &["--inputs", "0"], &["--inputs"]);
-    wrong("sum.wgsl", &["--time-limit", "-1"], &["--time-limit"]);
+    wrong("sum.wgsl", &["--time-limit", "0"], &["--time-limit"]);
     wrong("sum.wgsl", &["--scene", "a.toml"], &["--scene"]);
     wrong("sum.wgsl", &["--route", "spriv"], &["did you mean spirv?"]);
     wrong("sum.wgsl", &["nothing"], &["no case", "nothing"]);

@@ -67,6 +67,20 @@ pub enum Error {
         /// Its entry points with their stages.
         known: Vec<String>,
     },
+    /// A dispatch that no evaluation would see the end of.
+    #[error(
+        "{shader}: {workgroups:?} workgroups are {invocations} invocations, and at most {limit} are run; ask for less by --workgroups, or by `workgroups` in the ranges"
+    )]
+    TooManyInvocations {
+        /// The shader.
+        shader: String,
+        /// Workgroups along x, y and z.
+        workgroups: [u32; 3],
+        /// Their invocations.
+        invocations: u64,
+        /// The most that are run.
+        limit: u64,
+    },
     /// Declared ranges that are wrong or do not fit the shader.
     #[error(transparent)]
     Ranges(bossage_bounds::Error),

@@ -16,6 +16,9 @@ use crate::compare::NamedInput;
 use crate::error::Error;
 use crate::route::Route;
 
+/// The most invocations of a dispatch.
+const MAX_INVOCATIONS: u64 = 1 << 20;
+
 /// One entry point.
 #[derive(Debug)]
 pub struct Plan {
@@ -92,12 +95,16 @@ pub(super) fn plans(
             known.push(inputs.clone());
         }
         if chosen.iter().any(|(name, _)| name == entry) {
+            let ready = inputs.and_then(|inputs| Ready::new(shader, entry, *stage, inputs, options));
+            if let Ok(ready) = &ready {
+                ready.check_size(shader.name())?;
+            }
             plans.push(Plan {
                 shader: stem(shader.name()),
                 entry: entry.clone(),
                 seed: options.seed,
                 inputs: options.inputs,
-                ready: inputs.and_then(|inputs| Ready::new(shader, entry, *stage, inputs, options)),
+                ready,
             });
         }
     }
@@ -193,6 +200,21 @@ impl Ready {
             inputs,
             wgsl,
             entry,
+        })
+    }
+
+    /// Every invocation is evaluated several times over, for every input.
+    fn check_size(&self, shader: &str) -> Result<(), Error> {
+        let product = |list: [u32; 3]| list.iter().map(|n| u64::from(*n)).product::<u64>();
+        let invocations = product(self.workgroups) * product(self.program.workgroup_size());
+        if invocations <= MAX_INVOCATIONS {
+            return Ok(());
+        }
+        Err(Error::TooManyInvocations {
+            shader: shader.to_owned(),
+            workgroups: self.workgroups,
+            invocations,
+            limit: MAX_INVOCATIONS,
         })
     }
 
