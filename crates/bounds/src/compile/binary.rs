@@ -135,7 +135,11 @@ impl<'m> Builder<'m> {
                 a,
             });
         }
-        self.reorderable(frame, op, w, a, b)
+        let row = self.reorderable(frame, op, w, a, b)?;
+        if op == FloatBinary::Divide {
+            return self.over_length(frame, w, row, a, b);
+        }
+        Ok(row)
     }
 
     fn product(

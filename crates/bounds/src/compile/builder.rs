@@ -6,6 +6,7 @@ use super::code::{
 };
 use super::facts;
 use super::layout::{Types, unsupported};
+use super::units::Units;
 use crate::error::{Error, Result};
 use crate::kind::Kind;
 use naga::valid::{FunctionInfo, ModuleInfo};
@@ -44,6 +45,7 @@ pub(crate) struct Builder<'m> {
     instances: HashMap<(Handle<Function>, Vec<Option<Val>>), usize>,
     spans: HashMap<(usize, usize), u32>,
     pub(crate) chains: Chains,
+    pub(crate) units: Units,
     instructions: usize,
     depth: u32,
     /// The constant expressions met on the way, for the module's own arena.
@@ -83,6 +85,7 @@ impl<'m> Builder<'m> {
             instances: HashMap::new(),
             spans: HashMap::new(),
             chains: Chains::default(),
+            units: Units::default(),
             instructions: 0,
             depth: 0,
             global_values: HashMap::new(),
@@ -258,6 +261,7 @@ impl<'m> Builder<'m> {
             );
         }
         facts::note(&mut self.code.facts, &op);
+        self.units.note(&op);
         frame.pending.push(Instr { op, span: frame.span });
         Ok(())
     }

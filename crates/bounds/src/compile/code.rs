@@ -97,6 +97,7 @@ pub(crate) enum Op {
         n: u8,
     },
     Chain(Box<Chain>),
+    Unit(Box<Unit>),
     FloatCompare {
         op: Compare,
         w: Width,
@@ -218,6 +219,27 @@ pub(crate) struct Chain {
     pub(crate) a: Row,
     pub(crate) b: Row,
     pub(crate) terms: Vec<Term>,
+}
+
+/// A component of a vector that is divided by its length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Part {
+    /// As it is squared.
+    pub(crate) scaled: Row,
+    /// As it was before all were divided by one divisor.
+    pub(crate) whole: Row,
+}
+
+/// `dst = quotient`, which is `parts[at]` over the root of `sum`, the sum of the parts' squares.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Unit {
+    pub(crate) w: Width,
+    pub(crate) dst: Row,
+    pub(crate) quotient: Row,
+    pub(crate) sum: Row,
+    pub(crate) parts: Vec<Part>,
+    pub(crate) divisor: Option<Row>,
+    pub(crate) at: usize,
 }
 
 /// `dst[k] = groups[index][k]`: a run-time index into a value.
@@ -502,6 +524,8 @@ pub(crate) struct Constant {
 pub(crate) struct Code {
     pub(crate) kinds: Vec<Kind>,
     pub(crate) constants: Vec<(Row, Constant)>,
+    /// By row: whether it may hold a product, itself or by way of copies and calls.
+    pub(crate) products: Vec<bool>,
     pub(crate) functions: Vec<FunctionCode>,
     pub(crate) entry: usize,
     pub(crate) privates: Vec<(Row, u32)>,

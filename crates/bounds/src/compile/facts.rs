@@ -70,6 +70,7 @@ pub(crate) fn note(facts: &mut FactsByRow, op: &Op) {
         | Op::FloatTernary { .. }
         | Op::Sum { .. }
         | Op::Chain(_)
+        | Op::Unit(_)
         | Op::FrexpExponent { .. }
         | Op::Ldexp { .. }
         | Op::IsNan { .. }

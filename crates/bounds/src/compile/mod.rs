@@ -17,5 +17,7 @@ pub(crate) mod image;
 pub(crate) mod indexing;
 pub(crate) mod layout;
 pub(crate) mod math;
+pub(crate) mod products;
 pub(crate) mod program;
 pub(crate) mod statement;
+pub(crate) mod units;

@@ -3,6 +3,7 @@
 use super::builder::{Builder, Global};
 use super::code::{Code, Op, Root, Row};
 use super::layout::{BufferLayout, unsupported};
+use super::products::products;
 use crate::error::{Error, Result};
 use crate::kind::Kind;
 use naga::back::PipelineConstants;
@@ -179,6 +180,7 @@ fn compile(module: &Module, info: &ModuleInfo, index: usize) -> Result<Program> 
     let index = builder.function(&entry.function, function_info, &none)?;
     builder.code.entry = index;
     prepend(&mut builder.code, index, initial);
+    builder.code.products = products(&builder.code);
     let (inputs, outputs) = ports(&builder, entry, index)?;
     Ok(Program {
         name: entry.name.clone(),

@@ -38,6 +38,30 @@ impl Truth {
     }
 }
 
+/// One component of a vector that is divided by its length.
+#[derive(Clone, Copy, Debug)]
+pub struct Component<C> {
+    /// As it is squared and divided by the length.
+    pub scaled: C,
+    /// As it was before all were divided by one divisor; the same as `scaled` where none was.
+    pub whole: C,
+    /// Whether it may be a product, which another use may reassociate.
+    pub product: bool,
+}
+
+/// A vector that is divided by its length.
+#[derive(Clone, Copy, Debug)]
+pub struct OverLength<'a, C> {
+    /// The sum of squares.
+    pub sum: C,
+    /// The components.
+    pub components: &'a [Component<C>],
+    /// What they were divided by before.
+    pub divisor: Option<C>,
+    /// Which component's quotient is meant.
+    pub at: usize,
+}
+
 /// A number domain. Sealed: the evaluator relies on the laws below.
 ///
 /// Laws: for every operation, if the argument cells contain the arguments of a machine's operation, the result cell contains the
@@ -93,10 +117,22 @@ pub trait Domain: sealed::Sealed + Copy + PartialEq + std::fmt::Debug + Send + S
     /// What a sum (or difference) or a product that came out as `written` may be in any order of its terms, of which there are
     /// more than two. Asked only of a domain that [`Domain::REORDERS`].
     fn reordered(op: FloatBinary, w: Width, written: Self::Cell, terms: &[Self::Cell]) -> Self::Cell;
+    /// What `quotient` may be, given that it is a component of a vector over the vector's length. Asked only of a domain that
+    /// [`Domain::REORDERS`]; the others have nothing to add.
+    fn over_length(_w: Width, quotient: Self::Cell, _vector: &OverLength<'_, Self::Cell>) -> Self::Cell {
+        quotient
+    }
     /// A comparison of floats.
     fn compare(op: Compare, w: Width, a: Self::Cell, b: Self::Cell) -> Self::Cell;
-    /// What two floats are where a comparison of them holds that could go either way.
-    fn narrow(op: Compare, w: Width, a: Self::Cell, b: Self::Cell) -> (Self::Cell, Self::Cell);
+    /// What two floats are where a comparison of them holds that could go either way. `products` tells which of them may be a
+    /// product, of which other uses may not be rounded.
+    fn narrow(
+        op: Compare,
+        w: Width,
+        a: Self::Cell,
+        b: Self::Cell,
+        products: [bool; 2],
+    ) -> (Self::Cell, Self::Cell);
     /// A cell that contains both parts of what [`Domain::narrow`] has divided, as it was before.
     fn unite(a: Self::Cell, b: Self::Cell) -> Self::Cell;
     /// The exponent that `frexp` returns, as an `i32`.

@@ -300,7 +300,7 @@ macro_rules! point_domain {
             fn hull(_kind: Kind, a: u64, _b: u64) -> u64 {
                 a
             }
-            fn narrow(_op: Compare, _w: Width, a: u64, b: u64) -> (u64, u64) {
+            fn narrow(_op: Compare, _w: Width, a: u64, b: u64, _products: [bool; 2]) -> (u64, u64) {
                 (a, b)
             }
             fn unite(a: u64, _b: u64) -> u64 {

@@ -4,8 +4,8 @@
 //! as if it had never been narrowed, and not marked as forked. A way that has left by then, with `return` or `break`, does not count:
 //! so a guard that returns early holds for everything behind it.
 //!
-//! Assumes that a value is one value: what a condition has tested is what is used behind it. A subnormal number may be flushed for the
-//! comparison alone, so no bound is drawn below the smallest normal number.
+//! What a condition has tested is what is used behind it, with two exceptions that `interval::narrow` makes room for: a subnormal number
+//! may be flushed for the comparison alone, and a product may be fused, unrounded, into what is added to it (`compile::products`).
 
 use super::machine::Machine;
 use crate::compile::code::Row;
@@ -26,7 +26,8 @@ impl<D: Domain> Machine<'_, D> {
     fn narrow_by(&mut self, fact: &Fact, lane: u32) {
         let Fact { op, w, a, b } = *fact;
         let (old_a, old_b) = (self.get(a, lane), self.get(b, lane));
-        let (new_a, new_b) = D::narrow(op, w, old_a, old_b);
+        let products = [a, b].map(|row| self.context.program.code.products[row as usize]);
+        let (new_a, new_b) = D::narrow(op, w, old_a, old_b, products);
         for (row, old, new) in [(a, old_a, new_a), (b, old_b, new_b)] {
             if old != new {
                 self.set(row, lane, new);

@@ -5,9 +5,9 @@
 
 use super::machine::Machine;
 use crate::compile::chains::MAX_TERMS;
-use crate::compile::code::{Chain, Instr, Op, Row};
-use crate::domain::Domain;
+use crate::compile::code::{Chain, Instr, Op, Row, Unit};
 use crate::domain::ops::{Compare, FloatBinary, FloatTernary, FloatUnary, IntBinary};
+use crate::domain::{Component, Domain, OverLength};
 use crate::error::Result;
 use crate::kind::{IntType, Kind};
 use crate::width::Width;
@@ -40,6 +40,7 @@ impl<'a, D: Domain> Machine<'a, D> {
             }
             Op::Sum { w, dst, terms, n } => self.sum(*w, *dst, &terms[..*n as usize], active),
             Op::Chain(chain) => self.chain(chain, active),
+            Op::Unit(unit) => self.unit(unit, active),
             Op::FloatCompare { op, w, dst, a, b } => self.float_compare(*op, *w, (*dst, *a, *b), active),
             Op::FrexpExponent { w, dst, a } => self.map1(*dst, *a, active, |x| D::frexp_exponent(*w, x)),
             Op::Ldexp { w, dst, a, b } => self.map2(*dst, *a, *b, active, |x, e| D::ldexp(*w, x, e)),
@@ -101,7 +102,7 @@ impl<'a, D: Domain> Machine<'a, D> {
     /// Copies are moves of values between names, not operations.
     fn count(&mut self, instr: &Instr, lanes: u64) {
         let (operations, fetches) = match &instr.op {
-            Op::Copy { .. } => (0, 0),
+            Op::Copy { .. } | Op::Unit(_) => (0, 0),
             Op::Sample(_) | Op::ImageLoad(_) => (lanes, lanes),
             Op::Sum { n, .. } => (lanes * (u64::from(*n) - 1), 0),
             _ => (lanes, 0),
@@ -289,6 +290,37 @@ impl<'a, D: Domain> Machine<'a, D> {
             let written = self.get(chain.dst, lane);
             let any = D::reordered(chain.op, chain.w, written, &cells[..chain.terms.len()]);
             self.set(chain.dst, lane, any);
+        }
+    }
+
+    /// The quotient; in a domain of what machines may do, without counting twice the errors that it shares with the length.
+    fn unit(&mut self, unit: &Unit, active: &[u32]) {
+        self.copy(unit.dst, unit.quotient, active);
+        if !D::REORDERS {
+            return;
+        }
+        let products = &self.context.program.code.products;
+        let mut components = [Component {
+            scaled: D::Cell::default(),
+            whole: D::Cell::default(),
+            product: false,
+        }; 4];
+        for &lane in active {
+            for (to, part) in components.iter_mut().zip(&unit.parts) {
+                *to = Component {
+                    scaled: self.get(part.scaled, lane),
+                    whole: self.get(part.whole, lane),
+                    product: products[part.scaled as usize],
+                };
+            }
+            let vector = OverLength {
+                sum: self.get(unit.sum, lane),
+                components: &components[..unit.parts.len()],
+                divisor: unit.divisor.map(|row| self.get(row, lane)),
+                at: unit.at,
+            };
+            let cell = D::over_length(unit.w, self.get(unit.quotient, lane), &vector);
+            self.set(unit.dst, lane, cell);
         }
     }
 

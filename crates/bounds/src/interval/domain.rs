@@ -2,11 +2,11 @@
 
 use super::integers::{self, Bounds};
 use super::rules::{flush, outward};
-use super::{Accept, Flags, Interval, Range, WideCell, arithmetic, bits, functions, narrow, orders};
+use super::{Accept, Flags, Interval, Range, WideCell, arithmetic, bits, functions, narrow, orders, unit};
 use crate::compile::chains::MAX_TERMS;
 use crate::domain::ops::{BoolBinary, Compare, FloatBinary, FloatTernary, FloatUnary, IntBinary, IntUnary};
 use crate::domain::point::{bits_type, frexp};
-use crate::domain::{Domain, Truth, sealed};
+use crate::domain::{Component, Domain, OverLength, Truth, sealed};
 use crate::kind::{IntType, Kind};
 use crate::width::Width;
 
@@ -202,6 +202,28 @@ fn resize(t: IntType, (lo, hi): Bounds) -> Bounds {
     }
 }
 
+fn over_length(w: Width, quotient: WideCell, vector: &OverLength<'_, WideCell>) -> WideCell {
+    let mut components = [Component {
+        scaled: Interval::point(0.0),
+        whole: Interval::point(0.0),
+        product: false,
+    }; 4];
+    for (to, from) in components.iter_mut().zip(vector.components) {
+        *to = Component {
+            scaled: from.scaled.interval(),
+            whole: from.whole.interval(),
+            product: from.product,
+        };
+    }
+    let vector = OverLength {
+        sum: vector.sum.interval(),
+        components: &components[..vector.components.len().min(4)],
+        divisor: vector.divisor.map(WideCell::interval),
+        at: vector.at,
+    };
+    put_float(unit::over_length(w, quotient.interval(), &vector))
+}
+
 macro_rules! interval_domain {
     ($name:ident, $label:literal, $absorb:literal) => {
         impl Domain for $name {
@@ -264,8 +286,14 @@ macro_rules! interval_domain {
             fn hull(kind: Kind, a: WideCell, b: WideCell) -> WideCell {
                 hull(kind, a, b)
             }
-            fn narrow(op: Compare, w: Width, a: WideCell, b: WideCell) -> (WideCell, WideCell) {
-                let (a, b) = narrow::both(op, w, a.interval(), b.interval());
+            fn narrow(
+                op: Compare,
+                w: Width,
+                a: WideCell,
+                b: WideCell,
+                products: [bool; 2],
+            ) -> (WideCell, WideCell) {
+                let (a, b) = narrow::both(op, w, (a.interval(), b.interval()), products);
                 (put_float(a), put_float(b))
             }
             fn unite(a: WideCell, b: WideCell) -> WideCell {
@@ -308,6 +336,9 @@ macro_rules! interval_domain {
                 } else {
                     orders::sum::<$absorb>(w, written.interval(), terms)
                 })
+            }
+            fn over_length(w: Width, quotient: WideCell, vector: &OverLength<'_, WideCell>) -> WideCell {
+                over_length(w, quotient, vector)
             }
             #[inline(always)]
             fn compare(op: Compare, _w: Width, a: WideCell, b: WideCell) -> WideCell {

@@ -7,8 +7,8 @@ use super::arithmetic::{
     add, divide, enter, magnitude, maximum, minimum, multiply, negate, square, subtract, unbounded,
 };
 use super::rules::{
-    INVERSE_SQRT_ULPS, LOG_ULPS, TANH_ERROR, acos_error, asin_error, atan_ulps, exp_ulps, finish, log_error,
-    outward, sin_error, within_absolute, within_ulps,
+    DIVIDE_ULPS, INVERSE_SQRT_ULPS, LOG_ULPS, TANH_ERROR, acos_error, asin_error, atan_ulps, exp_ulps,
+    finish, log_error, outward, sin_error, within_absolute, within_ulps, within_ulps_unrounded,
 };
 use super::{Flags, Interval};
 use crate::domain::ops::FloatUnary;
@@ -224,9 +224,11 @@ pub(crate) fn sqrt<const A: bool>(w: Width, a: Interval) -> Interval {
     }
 }
 
+/// Of positive normal numbers. The reciprocal root on the way is bounded as a real number: nothing asks for it in the format.
 fn root<const A: bool>(w: Width, a: Interval) -> Interval {
     // In f16 the reciprocal of a large root leaves division's stated range only below 2^-14: never for normal arguments.
-    divide::<A>(w, Interval::point(1.0), inverse_sqrt::<A>(w, a))
+    let inverse = within_ulps_unrounded(w, 1.0 / a.hi.sqrt(), 1.0 / a.lo.sqrt(), INVERSE_SQRT_ULPS);
+    within_ulps::<A>(w, 1.0 / inverse.1, 1.0 / inverse.0, DIVIDE_ULPS)
 }
 
 /// `sin` and `cos`: absolute error on [−π, π], nothing stated outside. `peak` is where the function is 1.

@@ -17,6 +17,7 @@ pub(crate) mod integers;
 pub(crate) mod narrow;
 pub(crate) mod orders;
 pub(crate) mod rules;
+pub(crate) mod unit;
 
 use crate::width::Width;
 

@@ -66,8 +66,15 @@ fn slop(x: f64) -> f64 {
 
 /// All values within `ulps` units in the last place of a real number in `[lo, hi]`, rounded outward.
 pub(crate) fn within_ulps<const ABSORB: bool>(w: Width, lo: f64, hi: f64, ulps: f64) -> Interval {
+    let (below, above) = within_ulps_unrounded(w, lo, hi, ulps);
+    outward::<ABSORB>(w, below, above)
+}
+
+/// As [`within_ulps`], as real numbers.
+#[inline(always)]
+pub(crate) fn within_ulps_unrounded(w: Width, lo: f64, hi: f64, ulps: f64) -> (f64, f64) {
     let (below, above) = (lower_by_ulps(w, lo, hi, ulps), -lower_by_ulps(w, -hi, -lo, ulps));
-    outward::<ABSORB>(w, below - slop(below), above + slop(above))
+    (below - slop(below), above + slop(above))
 }
 
 /// As [`within_ulps`], of one number that is known exactly.

@@ -58,6 +58,7 @@ impl<'p> Walk<'p> {
         let span = instr.span;
         match &instr.op {
             Op::Copy { dst, src } => state.rows[*dst as usize] = self.value(state, *src),
+            Op::Unit(unit) => state.rows[unit.dst as usize] = self.value(state, unit.quotient),
             Op::FloatUnary { op, w, dst, a } => self.float_unary((*op, *w), (*dst, *a), span, state),
             Op::FloatBinary { op, w, dst, a, b } => self.float_binary((*op, *w), (*dst, *a, *b), span, state),
             // As written: which order a compiler takes is not this shader's fault.

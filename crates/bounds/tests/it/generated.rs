@@ -67,7 +67,7 @@ fn statement() -> impl Strategy<Value = String> {
     })
 }
 
-fn shader() -> impl Strategy<Value = String> {
+pub(crate) fn shader() -> impl Strategy<Value = String> {
     prop::collection::vec(statement(), 1..6).prop_map(|list| {
         crate::common::probe_source(&format!(
             "var x = a[0]; var y = a[1]; var n = i32(a[2]); var v = vec3f(x, y, 0.5); var t = array<f32, 4>(1.0, 2.0, x, y);

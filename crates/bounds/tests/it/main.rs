@@ -10,6 +10,7 @@ mod generated;
 mod limits;
 mod lint;
 mod math;
+mod narrow;
 mod precision;
 mod ranges;
 mod textures;
