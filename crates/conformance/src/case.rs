@@ -28,6 +28,11 @@ pub trait Case: Send + Sync {
 
     /// Runs and judges it.
     fn run(&self, bench: &Bench<'_>) -> Outcome;
+
+    /// Runs and judges it on each bench. A case whose expectation is too large to keep computes it once for all of them here.
+    fn run_all(&self, benches: &[Bench<'_>]) -> Vec<Outcome> {
+        benches.iter().map(|bench| self.run(bench)).collect()
+    }
 }
 
 /// What came of a case.

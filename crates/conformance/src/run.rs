@@ -131,8 +131,8 @@ pub fn run_cases(
     let mut results = Vec::new();
     // Case by case, not bench by bench: what a case expects is computed once, and then dropped with the case.
     for case in cases {
-        for bench in &benches {
-            let result = case.run(bench).into_result(case.as_ref(), bench);
+        for (bench, outcome) in benches.iter().zip(case.run_all(&benches)) {
+            let result = outcome.into_result(case.as_ref(), bench);
             progress.done(&result);
             results.push(result);
         }

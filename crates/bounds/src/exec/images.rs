@@ -6,6 +6,7 @@ use crate::compile::program::ResourceKind;
 use crate::domain::Domain;
 use crate::error::{Error, Result};
 use crate::kind::{IntType, Kind};
+use crate::texture::format::Rounding;
 use crate::texture::loads::load_texels;
 use crate::texture::request::Request;
 use crate::texture::{Bounds, Sampler, Texture};
@@ -372,12 +373,12 @@ fn stored<D: Domain>(texture: &Texture, k: usize, kind: Kind, cell: D::Cell) -> 
             if lo.is_nan() {
                 return cell;
             }
-            let slack = if D::UNCERTAIN && format.is_normalised() {
-                f64::from(f32::EPSILON)
+            let (down, up) = if D::UNCERTAIN {
+                (Rounding::Down, Rounding::Up)
             } else {
-                0.0
+                (Rounding::Nearest, Rounding::Nearest)
             };
-            D::real(w, format.quantize(k, lo - slack), format.quantize(k, hi + slack))
+            D::real(w, format.quantize(k, lo, down), format.quantize(k, hi, up))
         }
         Kind::Int(t) if missing => D::int(t, i128::from(k == 3)),
         Kind::Int(t) => {
@@ -386,7 +387,7 @@ fn stored<D: Domain>(texture: &Texture, k: usize, kind: Kind, cell: D::Cell) -> 
                 if format.bytes() / format.channels() >= 4 {
                     x
                 } else {
-                    format.quantize(k, x as f64) as i128
+                    format.quantize(k, x as f64, Rounding::Nearest) as i128
                 }
             };
             D::int_range(t, q(lo).clamp(t.min(), t.max()), q(hi).clamp(t.min(), t.max()))

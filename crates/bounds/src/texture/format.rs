@@ -1,8 +1,8 @@
 //! Texel formats: bytes to numbers and back.
 
-use crate::domain::point::{float_from_bits, float_to_bits};
+use crate::domain::point::float_from_bits;
 use crate::kind::{IntType, Kind};
-use crate::width::Width;
+use crate::width::{Width, exp2i, exponent_of};
 use naga::StorageFormat;
 
 /// How the channels of a texel are encoded.
@@ -99,25 +99,17 @@ impl TexelFormat {
         out
     }
 
-    /// A channel value as the format stores it; `None` keeps it as it is.
-    pub(crate) fn quantize(self, channel: usize, x: f64) -> f64 {
+    /// A channel value as the format stores it, rounded that way.
+    pub(crate) fn quantize(self, channel: usize, x: f64, rounding: Rounding) -> f64 {
         match self.encoding() {
-            Encoding::Unorm(bits) => unorm(x, bits),
-            Encoding::Snorm(bits) => snorm(x, bits),
-            Encoding::Float(w) => w.round(x),
+            Encoding::Unorm(bits) => unorm(x, bits, rounding),
+            Encoding::Snorm(bits) => snorm(x, bits, rounding),
+            Encoding::Float(w) => rounding.to_format(w, x),
             Encoding::Int(t) => x.clamp(t.min() as f64, t.max() as f64),
-            Encoding::Rgb10a2 { normalised: true } => unorm(x, if channel == 3 { 2 } else { 10 }),
+            Encoding::Rgb10a2 { normalised: true } => unorm(x, if channel == 3 { 2 } else { 10 }, rounding),
             Encoding::Rgb10a2 { normalised: false } => x.clamp(0.0, if channel == 3 { 3.0 } else { 1023.0 }),
-            Encoding::Rg11b10 => small_float(x, if channel == 2 { 5 } else { 6 }),
+            Encoding::Rg11b10 => small_float(x, if channel == 2 { 5 } else { 6 }, rounding),
         }
-    }
-
-    /// Whether the stored value is exact only up to the rounding of a conversion.
-    pub(crate) fn is_normalised(self) -> bool {
-        matches!(
-            self.encoding(),
-            Encoding::Unorm(_) | Encoding::Snorm(_) | Encoding::Rgb10a2 { normalised: true }
-        )
     }
 
     /// How far a filter that works in the precision of the texels may be off along one axis: by a step of 1/255 where it rounds a
@@ -251,23 +243,55 @@ fn rg11b10(word: u64) -> [f64; 4] {
     ]
 }
 
-fn small_float(x: f64, significand_bits: u32) -> f64 {
-    if x.is_nan() {
-        return x;
+/// An unsigned float with five bits of exponent and so many of fraction; negative numbers become zero.
+fn small_float(x: f64, fraction_bits: i32, rounding: Rounding) -> f64 {
+    if x.is_nan() || x <= 0.0 || x == f64::INFINITY {
+        return x.max(0.0);
     }
-    let drop = 10 - significand_bits;
-    let bits = float_to_bits(Width::F16, x.max(0.0));
-    float_from_bits(Width::F16, bits >> drop << drop)
+    let step = exp2i(exponent_of(x).max(-14) - fraction_bits);
+    let rounded = rounding.to_integer(x / step) * step;
+    if rounded < exp2i(16) {
+        rounded
+    } else {
+        f64::INFINITY
+    }
 }
 
-fn unorm(x: f64, bits: u32) -> f64 {
+fn unorm(x: f64, bits: u32, rounding: Rounding) -> f64 {
     let most = ((1u64 << bits) - 1) as f64;
-    (x.clamp(0.0, 1.0) * most).round_ties_even() / most
+    rounding.to_integer(x.clamp(0.0, 1.0) * most) / most
 }
 
-fn snorm(x: f64, bits: u32) -> f64 {
+fn snorm(x: f64, bits: u32, rounding: Rounding) -> f64 {
     let most = ((1u64 << (bits - 1)) - 1) as f64;
-    (x.clamp(-1.0, 1.0) * most).round_ties_even() / most
+    rounding.to_integer(x.clamp(-1.0, 1.0) * most) / most
+}
+
+/// Where a conversion to a format goes. Vulkan lets it return either of the two numbers around the exact one (*Conversion from
+/// Floating-Point to Normalized Fixed-Point*, and the same for floats of fewer bits); a perfect machine takes the nearest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Rounding {
+    Nearest,
+    Down,
+    Up,
+}
+
+impl Rounding {
+    fn to_integer(self, x: f64) -> f64 {
+        match self {
+            Self::Nearest => x.round_ties_even(),
+            Self::Down => x.floor(),
+            Self::Up => x.ceil(),
+        }
+    }
+
+    fn to_format(self, w: Width, x: f64) -> f64 {
+        match self {
+            Self::Nearest => w.round(x),
+            Self::Down => w.round_down(x, 0.0),
+            Self::Up => w.round_up(x, 0.0),
+        }
+    }
 }
 
 #[cfg(test)]
@@ -299,9 +323,36 @@ mod tests {
                 TexelFormat::Rgba16Float,
                 TexelFormat::Rg11b10Ufloat,
             ] {
-                let q = f.quantize(0, x);
-                assert_eq!(f.quantize(0, q), q, "{f:?} {x}");
+                let q = f.quantize(0, x, Rounding::Nearest);
+                assert_eq!(f.quantize(0, q, Rounding::Nearest), q, "{f:?} {x}");
             }
+        }
+    }
+
+    /// Either neighbour may be stored; what the format has is stored as it is.
+    #[test]
+    fn roundings_go_to_the_two_neighbours() {
+        for (format, x, below, above) in [
+            (TexelFormat::Rgba8Unorm, 0.3, 76.0 / 255.0, 77.0 / 255.0),
+            (TexelFormat::Rgba8Snorm, -0.6, -77.0 / 127.0, -76.0 / 127.0),
+            (TexelFormat::Rg11b10Ufloat, 0.3, 0.296875, 0.30078125),
+            (TexelFormat::R16Float, 2049.0, 2048.0, 2050.0),
+            (TexelFormat::Rg11b10Ufloat, 70_000.0, f64::INFINITY, f64::INFINITY),
+            (TexelFormat::Rg11b10Ufloat, -1.0, 0.0, 0.0),
+            (TexelFormat::Rg11b10Ufloat, 1.5, 1.5, 1.5),
+            (TexelFormat::Rgba8Unorm, 2.0, 1.0, 1.0),
+        ] {
+            let to = |rounding| format.quantize(0, x, rounding);
+            assert_eq!(
+                (to(Rounding::Down), to(Rounding::Up)),
+                (below, above),
+                "{format:?} of {x}"
+            );
+            let nearest = to(Rounding::Nearest);
+            assert!(
+                nearest == below || nearest == above,
+                "{format:?} of {x}: {nearest}"
+            );
         }
     }
 }

@@ -96,7 +96,8 @@ const EXPRESSIONS: &[&str] = &[
     "cross(vec3f(x, y, 1.0), vec3f(y, 1.0, x)).z",
 ];
 
-fn all_expressions() -> String {
+/// All of them in one shader.
+pub(crate) fn all_expressions() -> String {
     let n = EXPRESSIONS.len();
     let lines: String = EXPRESSIONS
         .iter()

@@ -57,9 +57,22 @@ pub(crate) fn dispatch_many<D: Domain>(
     (bindings, outcome)
 }
 
+/// Parses and validates a compute shader in GLSL.
+pub(crate) fn glsl(source: &str) -> (naga::Module, ModuleInfo) {
+    let options = naga::front::glsl::Options::from(naga::ShaderStage::Compute);
+    let module = naga::front::glsl::Frontend::default()
+        .parse(&options, source)
+        .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
+    let info = Validator::new(ValidationFlags::all(), Capabilities::all())
+        .validate(&module)
+        .unwrap_or_else(|e| panic!("{}", e.emit_to_string(source)));
+    (module, info)
+}
+
 /// The text of a corpus file.
 pub(crate) fn source(name: &str) -> String {
-    let path = format!("{}/tests/corpus/{name}.wgsl", env!("CARGO_MANIFEST_DIR"));
+    let extension = if name == "glsl" { "comp" } else { "wgsl" };
+    let path = format!("{}/tests/corpus/{name}.{extension}", env!("CARGO_MANIFEST_DIR"));
     std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
 }
 

@@ -103,6 +103,12 @@ fn body(expression: &str) -> String {
     format!("let x = a[0]; let y = a[1]; let z = a[2]; o[i] = {expression};")
 }
 
+/// The bodies of all probes here.
+pub(crate) fn bodies() -> Vec<String> {
+    let all = SINGLE.iter().chain(COMPOSED);
+    all.map(|(expression, _)| body(expression)).collect()
+}
+
 #[test]
 fn a_perfect_machine_rounds_single_operations_once() {
     for (expression, f) in SINGLE {

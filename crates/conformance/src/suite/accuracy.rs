@@ -2,10 +2,8 @@
 //!
 //! The expectation is the acceptance interval of the very module that is run ([`Accept`]), the truth the same module over
 //! float64 ([`F64`]). This is the check of both sides: a driver that leaves an interval breaks a rule of the language, or the
-//! interval is wrong. What a driver is known to break is listed in [`deviations`], each with a witness that is run first;
-//! an entry whose witness no longer shows is a failure.
+//! interval is wrong. What a driver is known to break is listed in [`crate::deviation`], each with a witness that is run first.
 
-pub mod deviations;
 pub mod functions;
 pub mod inputs;
 
@@ -18,10 +16,10 @@ use crate::bench::Bench;
 use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
-use crate::compare::{Comparison, Expected};
+use crate::compare::Expected;
+use crate::deviation::{self, Deviation, Judged};
 use crate::module::Module;
-use crate::verdict::Verdict;
-use deviations::Deviation;
+use crate::route::Prepared;
 use functions::Function;
 
 /// Evaluations of one function in an ordinary run.
@@ -86,7 +84,8 @@ impl AccuracyCase {
         }
     }
 
-    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
+    /// Runs the function on every bench: what is expected is computed once for all of them.
+    fn judge(&self, benches: &[Bench<'_>]) -> Result<Vec<Outcome>, String> {
         let text = shader(self.function);
         let assembled = AssembledShader {
             name: format!("{ENTRY}_{}", self.function.name),
@@ -94,64 +93,83 @@ impl AccuracyCase {
             features: Vec::new(),
             modules: Vec::new(),
         };
-        let prepared = bench.route.prepare(&assembled)?;
         let program = program(&text)?;
-        let known = deviations::of(self.function.name, bench.route, bench.device.info());
-        let run = |values: &[f32]| -> Result<Comparison, String> {
-            let shader = prepared.shader(ENTRY)?;
-            let items = values.len() / 2;
-            let got = run_probe(bench.device, shader.code, shader.entry, values, 1, items)
-                .map_err(|error| with_causes(&error))?;
-            let expected = expected(&program, values)?;
-            let mut all = Comparison::default();
-            for ((item, got), expected) in values.chunks_exact(2).zip(&got).zip(&expected) {
-                all.item(item, &[*got], &[*expected]);
-            }
-            Ok(all)
-        };
-        let mut all = Comparison::default();
-        if let Some(known) = known {
-            let witness = run(&known.witness)?;
-            if witness.refused == 0 {
-                return Ok(stale(known, witness));
-            }
-            all.merge(witness);
+        let subject = format!("accuracy/{}", self.function.name);
+        let mut trials: Vec<Trial<'_, '_>> = benches
+            .iter()
+            .map(|bench| Trial::new(bench, &assembled, &subject))
+            .collect();
+        for trial in &mut trials {
+            trial.run_witness(&program)?;
         }
         for part in 0..self.count.div_ceil(PART) {
             let count = PART.min(self.count - part * PART);
-            all.merge(run(&inputs::generate(self.function, count, part, self.seed))?);
+            let values = inputs::generate(self.function, count, part, self.seed);
+            let expected = expected(&program, &values)?;
+            for trial in &mut trials {
+                trial.run(&values, &expected);
+            }
         }
-        Ok(verdict(self.count, all, known))
+        Ok(trials
+            .into_iter()
+            .map(|trial| trial.outcome(self.count))
+            .collect())
     }
 }
 
-/// A known deviation is an expected failure; anything else is judged as usual.
-fn verdict(count: usize, comparison: Comparison, known: Option<&Deviation>) -> Outcome {
-    let refused = comparison.refused;
-    let outcome = Outcome::of(count, comparison, 1.0);
-    match known {
-        Some(known) if outcome.verdict == Verdict::Fail => Outcome {
-            verdict: Verdict::ExpectedFail,
-            reason: Some(format!(
-                "{refused} of {} outputs: {}",
-                outcome.comparison.outputs, known.reason
-            )),
-            ..outcome
-        },
-        Some(_) | None => outcome,
+/// One function on one bench. What goes wrong there ends this trial and no other.
+struct Trial<'a, 'b> {
+    bench: &'a Bench<'b>,
+    known: Option<&'static Deviation>,
+    state: Result<(Prepared, Judged), String>,
+}
+
+impl<'a, 'b> Trial<'a, 'b> {
+    fn new(bench: &'a Bench<'b>, assembled: &AssembledShader, subject: &str) -> Self {
+        let known = deviation::of(subject, bench.route, bench.device.info());
+        let prepared = bench.route.prepare(assembled);
+        Self {
+            bench,
+            known,
+            state: prepared.map(|prepared| (prepared, Judged::new(known))),
+        }
+    }
+
+    fn run_witness(&mut self, program: &Program) -> Result<(), String> {
+        if let Some(known) = self.known {
+            let expected = expected(program, known.witness)?;
+            self.run(known.witness, &expected);
+        }
+        Ok(())
+    }
+
+    /// Runs pairs of arguments and judges what comes back.
+    fn run(&mut self, values: &[f32], expected: &[Expected]) {
+        let Ok((prepared, judged)) = &mut self.state else {
+            return;
+        };
+        match run_pairs(self.bench, prepared, values) {
+            Ok(got) => {
+                for ((item, got), expected) in values.chunks_exact(2).zip(&got).zip(expected) {
+                    judged.item(item, &[*got], &[*expected]);
+                }
+            }
+            Err(problem) => self.state = Err(problem),
+        }
+    }
+
+    fn outcome(self, inputs: usize) -> Outcome {
+        match self.state {
+            Ok((_, judged)) => judged.outcome(inputs, 1.0),
+            Err(problem) => Outcome::failed(problem),
+        }
     }
 }
 
-fn stale(known: &Deviation, comparison: Comparison) -> Outcome {
-    Outcome {
-        inputs: 1,
-        comparison,
-        verdict: Verdict::Fail,
-        reason: Some(format!(
-            "the known deviation does not show at its witness any more ({}): take it out of the list",
-            known.reason
-        )),
-    }
+fn run_pairs(bench: &Bench<'_>, prepared: &Prepared, values: &[f32]) -> Result<Vec<f32>, String> {
+    let shader = prepared.shader(ENTRY)?;
+    let items = values.len() / 2;
+    run_probe(bench.device, shader.code, shader.entry, values, 1, items).map_err(|error| with_causes(&error))
 }
 
 fn program(text: &str) -> Result<Program, String> {
@@ -199,14 +217,19 @@ impl Case for AccuracyCase {
     }
 
     fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
+        self.run_all(std::slice::from_ref(bench)).remove(0)
+    }
+
+    fn run_all(&self, benches: &[Bench<'_>]) -> Vec<Outcome> {
+        self.judge(benches)
+            .unwrap_or_else(|problem| benches.iter().map(|_| Outcome::failed(&*problem)).collect())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::route::Route;
+    use crate::compare::Comparison;
 
     fn find(name: &str) -> &'static Function {
         functions::ALL
@@ -282,44 +305,11 @@ mod tests {
     }
 
     #[test]
-    fn a_deviation_is_expected_where_it_is_listed_and_stale_where_it_does_not_show() {
-        let known = Deviation {
-            route: None,
-            driver: "none",
-            function: "add",
-            witness: [1.0, 2.0],
-            reason: "never",
-        };
-        let mut bad = Comparison::default();
-        let values = [1.0, 2.0];
-        let e = expected(&program(&shader(find("add"))).unwrap(), &values).unwrap();
-        bad.item(&values, &[4.0], &e);
-        assert_eq!(
-            verdict(1, bad.clone(), Some(&known)).verdict,
-            Verdict::ExpectedFail
-        );
-        assert_eq!(verdict(1, bad, None).verdict, Verdict::Fail);
-        let mut good = Comparison::default();
-        good.item(&values, &[3.0], &e);
-        assert_eq!(stale(&known, good).verdict, Verdict::Fail);
-    }
-
-    #[test]
-    fn a_deviation_of_a_route_is_none_of_another() {
-        let info = bossage_embedded::info();
-        let of = |route| deviations::of("sign", route, &info).map(|known| known.route);
-        assert_eq!(of(Route::Hlsl), Some(Some(Route::Hlsl)));
-        assert_eq!((of(Route::Glsl), of(Route::Wgsl)), (None, None));
-    }
-
-    #[test]
     fn deviations_name_functions_that_there_are() {
-        for known in deviations::ALL {
-            assert!(
-                functions::ALL.iter().any(|f| f.name == known.function),
-                "{}",
-                known.function
-            );
+        for known in deviation::ALL {
+            if let Some(function) = known.subject.strip_prefix("accuracy/") {
+                assert_eq!(find(function).name, function);
+            }
         }
     }
 }

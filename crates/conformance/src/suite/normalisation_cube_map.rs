@@ -27,7 +27,8 @@ use crate::bench::Bench;
 use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
-use crate::compare::{Comparison, Expected};
+use crate::compare::Expected;
+use crate::deviation::{self, Judged};
 use crate::module::Module;
 use crate::tolerance::{SUBTEXEL_BITS, UNDECIDED_LIMIT};
 use crate::verdict::Verdict;
@@ -48,6 +49,9 @@ const STATED_DEG: [(u32, f64, f64); 4] = [
     (64, 0.131, 0.72),
     (256, 0.129, 0.37),
 ];
+
+/// What known deviations of the adapter's own filter are listed under.
+const SUBJECT: &str = "normalisation_cube_map/lookup";
 
 /// One map with one filter.
 struct CubeCase {
@@ -152,6 +156,12 @@ impl CubeCase {
             let count = self.stated().map_or(DIRECTIONS, |_| STATED_DIRECTIONS);
             faces_evenly(count).enumerate().map(of).collect()
         })
+    }
+
+    /// A direction and the size, as the report and known deviations have them.
+    fn item(&self, direction: &[f32; 4]) -> [f32; 4] {
+        let [x, y, z, _] = *direction;
+        [x, y, z, self.size as f32]
     }
 
     fn texture(&self) -> Result<TextureData, String> {
@@ -276,9 +286,10 @@ impl CubeCase {
         if found.len() != directions.len() {
             return Err(format!("{} colours of {}", found.len(), directions.len()));
         }
-        let mut comparison = Comparison::default();
+        let known = deviation::of(SUBJECT, bench.route, bench.device.info()).filter(|_| !self.is_in_face());
+        let mut judged = Judged::new(known);
         for ((direction, got), expected) in directions.iter().zip(found).zip(expected) {
-            comparison.item(&direction[..3], got, expected);
+            judged.item(&self.item(direction), got, expected);
         }
         let errors = |colour: &dyn Fn(usize) -> DVec3| -> Angles {
             let of = |at: usize| angle_deg(2.0 * colour(at) - 1.0, vector(&directions[at]));
@@ -286,7 +297,7 @@ impl CubeCase {
         };
         let got = errors(&|at| vector(&found[at]));
         let truth = errors(&|at| DVec3::from_array([0, 1, 2].map(|channel| expected[at][channel].truth)));
-        let outcome = Outcome::of(directions.len(), comparison, UNDECIDED_LIMIT);
+        let outcome = judged.outcome(directions.len(), UNDECIDED_LIMIT);
         Ok(self.with_angles(outcome, got, truth))
     }
 
@@ -396,6 +407,19 @@ impl Case for CubeCase {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_witness_of_a_known_deviation_is_among_the_directions() {
+        for known in deviation::ALL.iter().filter(|known| known.subject == SUBJECT) {
+            let case = CubeCase::new(16, Depth::Eight, Kernel::NormalisationCubeMapLookup);
+            let mut items = case.directions().iter().map(|direction| case.item(direction));
+            assert!(
+                items.any(|item| item[..] == *known.witness),
+                "{:?}",
+                known.witness
+            );
+        }
+    }
 
     #[test]
     fn figures_off_by_more_than_a_tenth_are_not_the_same() {
