@@ -33,7 +33,7 @@ const SUM: &str = "
 fn the_example_passes_on_every_route_and_is_reported() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name);
-    let example = repository("examples/tone_map.wgsl");
+    let example = repository("examples/shaders/tone_map.wgsl");
     let (json, junit, html) = (path("a.json"), path("a.xml"), path("a.html"));
     let run = bossage(&[
         "conform",

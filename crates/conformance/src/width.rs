@@ -35,10 +35,6 @@ pub const MISSED: &[(&str, &str)] = &[
         "2 (N·V) N − V cancels where a component of the mirrored vector is small",
     ),
     (
-        "frame_from_uv_triangle",
-        "a difference of edges, normalised: its relative error enters numerator and length as if they were independent",
-    ),
-    (
         "normal_transform",
         "cofactors of ill-conditioned matrices (condition up to 64) cancel before they are normalised",
     ),

@@ -54,7 +54,13 @@ impl Side {
     fn above(&self, x: Interval, bound: f64, strictly: bool) -> Interval {
         let lo = self.least(bound, strictly);
         if lo > x.lo && lo <= x.hi {
-            flush(self.w, Interval { lo, ..x })
+            // What may be flushed to zero was zero before, or will be where it is used: the cut keeps within what there was.
+            let cut = flush(self.w, Interval { lo, ..x });
+            Interval {
+                lo: cut.lo.max(x.lo),
+                hi: cut.hi.min(x.hi),
+                ..cut
+            }
         } else {
             x
         }
@@ -135,6 +141,17 @@ mod tests {
             left(Compare::GreaterEqual, (0.0, 1.0), (LEAST, LEAST)),
             (LEAST, 1.0)
         );
+    }
+
+    #[test]
+    fn a_cut_among_subnormals_does_not_reach_back_to_zero() {
+        let most = W.next_down(LEAST);
+        let (_, b) = narrowed(
+            Compare::Greater,
+            Interval::new(0.0, LEAST),
+            Interval::new(most, 0.5),
+        );
+        assert_eq!((b.lo, b.hi), (most, most));
     }
 
     #[test]

@@ -74,7 +74,7 @@ fn correlated(w: Width, vector: &OverLength<Interval>, entries: Entries) -> Opti
     let known = parts
         .iter()
         .all(|part| decided(&part.scaled) && decided(&part.whole));
-    if w != Width::F32 || !known || !decided(&vector.sum) || !(vector.sum.lo >= LEAST_SUM) {
+    if w != Width::F32 || !known || !decided(&vector.sum) || vector.sum.lo < LEAST_SUM {
         return None;
     }
     let falls = match vector.divisor {

@@ -8,7 +8,7 @@ pub(crate) const EXAMPLE: &str = "\
 Examples:
   bossage conform
   bossage conform parallax_offset --route wgsl,spirv --adapter llvmpipe --html conform.html
-  bossage conform --shader examples/tone_map.wgsl --inputs 256 --seed 7";
+  bossage conform --shader examples/shaders/tone_map.wgsl --inputs 256 --seed 7";
 
 /// `bossage conform`.
 #[derive(Debug, clap::Args)]

@@ -1,7 +1,7 @@
 //! Bake cases: a normal map made by a compute kernel against its twin on the CPU, byte for byte, and both against the f64
 //! reference.
 //!
-//! What is allowed comes from the kernel's own IR over acceptance intervals ([`crate::dispatch`]). A byte is a step function of the
+//! What is allowed comes from the kernel's own IR over acceptance intervals (`dispatch.rs`). A byte is a step function of the
 //! normal: where the interval of what is truncated holds no whole number, exactly one byte is allowed and the twins are equal.
 //! Where it does, the neighbours are allowed, and twins that differ there are counted: the rules leave the direction of rounding
 //! open.

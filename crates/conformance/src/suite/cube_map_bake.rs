@@ -1,6 +1,6 @@
 //! Bakes of the normalisation cube map: the kernel's codes against its twin on the CPU and the f64 reference, texel by texel.
 //!
-//! What is allowed comes from the kernel's own IR over acceptance intervals ([`crate::dispatch`]). A code is a step function of the
+//! What is allowed comes from the kernel's own IR over acceptance intervals (`dispatch.rs`). A code is a step function of the
 //! direction: where the interval of what is truncated holds no whole number there is one right code, and kernel and twin (which
 //! computes in f64) both must have it; elsewhere the neighbours are allowed, and codes that differ are counted in the report.
 

@@ -1,5 +1,5 @@
 //! Mesh cases: the tangent kernels, triangles first and then vertices, against the f64 reference and what the kernels' own IR
-//! allows ([`crate::dispatch`]).
+//! allows (`dispatch.rs`).
 //!
 //! All that they write is judged: the triangles' frames, the vertices' tangents, and the normals that the published form sums.
 //! The vertex pass is given what the triangle pass left, on the adapter and as intervals; so the intervals of tangents hold what

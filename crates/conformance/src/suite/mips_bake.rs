@@ -1,7 +1,7 @@
 //! Mip chains of normal maps: the three kernels, level by level, against their twin on the CPU and the f64 reference.
 //!
 //! Each level is judged by itself, from the twin's level before: bytes to decoded normals, averages to smaller averages, averages
-//! to bytes. What is allowed comes from the kernels' own IR over those inputs ([`crate::dispatch`]). Averages and bytes that
+//! to bytes. What is allowed comes from the kernels' own IR over those inputs (`dispatch.rs`). Averages and bytes that
 //! differ from the twin's are counted in the report.
 
 use std::collections::BTreeMap;

@@ -1,7 +1,7 @@
 // A compute shader that is not Bossage's: colours of any brightness are brought into [0, 1], brighter ones are compressed more. Run it on
 // every route and adapter of this machine, on inputs from tone_map.ranges.toml:
 //
-//     bossage conform --shader examples/tone_map.wgsl
+//     bossage conform --shader examples/shaders/tone_map.wgsl
 
 struct Settings {
     exposure: f32,
