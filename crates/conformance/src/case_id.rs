@@ -9,7 +9,7 @@ use std::fmt;
 /// The name of a case.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CaseId {
-    /// Technique id, as in the library's table; `scene` for a whole scene.
+    /// Technique id, as in the library's table; `scene` for a whole scene, `surface` for its stages.
     pub technique: String,
     /// `published` or `hardened` where the technique has both.
     pub form: Option<String>,

@@ -80,10 +80,13 @@ impl Outputs {
         let column = self.0.columns.get(&slot);
         let scalars = column.and_then(|column| column.of(invocation).first_chunk::<N>());
         let scalars = scalars.ok_or_else(|| format!("the stage has no {N} numbers at {slot:?}"))?;
-        Ok(scalars.map(|scalar| match scalar {
-            Scalar::Float(interval) => Bound::from(interval),
-            Scalar::Int(..) | Scalar::Bool(_) => Bound::OPEN,
-        }))
+        Ok(scalars.each_ref().map(bound))
+    }
+
+    /// One scalar of any output; `None` where the stage has none there.
+    pub(crate) fn component(&self, slot: Slot, invocation: usize, number: usize) -> Option<Bound> {
+        let column = self.0.columns.get(&slot)?;
+        column.of(invocation).get(number).map(bound)
     }
 
     /// 1 where a fragment is kept, 0 where it is discarded, forked where that is not decided.
@@ -93,6 +96,13 @@ impl Outputs {
             Truth::True => Bound::exactly(0.0),
             Truth::Maybe => Bound::between(0.0, 1.0).forked(),
         }
+    }
+}
+
+fn bound(scalar: &Scalar<Accept>) -> Bound {
+    match scalar {
+        Scalar::Float(interval) => Bound::from(*interval),
+        Scalar::Int(..) | Scalar::Bool(_) => Bound::OPEN,
     }
 }
 
@@ -113,6 +123,18 @@ impl Stage<'_> {
         let inputs = inputs.of(entry).lone();
         self.run(entry, |bindings| {
             bossage_bounds::run_fragment(&program, bindings, &inputs, &Limits::default())
+        })
+    }
+
+    /// The intervals of vertices.
+    ///
+    /// # Errors
+    /// As [`Stage::fragments`].
+    pub(crate) fn vertices(&self, inputs: &Inputs) -> Result<Outputs, String> {
+        let (program, entry) = self.program()?;
+        let inputs = inputs.of(entry);
+        self.run(entry, |bindings| {
+            bossage_bounds::run_vertex(&program, bindings, &inputs, &Limits::default())
         })
     }
 

@@ -40,6 +40,8 @@ pub fn cases(scope: &Scope) -> Vec<Box<dyn Case>> {
     cases.extend(mikktspace::cases());
     cases.extend(normalisation_cube_map::cases());
     cases.extend(scene::cases(&scope.scenes));
+    cases.extend(scene::permutations::cases(scope.full));
+    cases.extend(scene::vertices::cases());
     cases.extend(scene::two_pass::cases());
     cases.extend(scene::displacement::cases());
     cases.sort_by(|a, b| a.id().cmp(b.id()));

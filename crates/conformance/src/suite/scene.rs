@@ -12,16 +12,20 @@ pub mod displacement;
 mod expected;
 mod interpolants;
 mod judge;
+pub mod permutations;
 mod pixels;
 mod rig;
+mod specimen;
 mod truth;
 pub mod two_pass;
 mod upload;
+pub mod vertices;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use bossage_runner::Filter;
 use bossage_scene::{Draw, Plan, Scene, draws, draws_with};
 use bossage_shaders::{Form, Stage};
 
@@ -120,6 +124,7 @@ impl SceneCase {
                 bench,
                 number,
                 size: scene.camera.size,
+                filter: Filter::Linear,
                 expectations: &self.expectations,
             };
             for stage in passes(draw) {

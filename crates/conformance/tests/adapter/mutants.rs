@@ -270,6 +270,62 @@ const MUTANTS: &[Mutant] = &[
         to: "dot3_first_pass(vec3f(0.5, 0.5, 1.0), light_color)",
         filter: "scene/planned:scene=dot3_cube_two_pass",
     },
+    Mutant {
+        what: "red and green of one light's highlight swapped",
+        file: "entry/surface_fragment.wesl",
+        from: "        * blinn_phong(normal, light_dir, view_dir, albedo.rgb, material.specular.rgb, material.shininess);\n    @elif",
+        to: "        * blinn_phong(normal, light_dir, view_dir, albedo.rgb, material.specular.grb, material.shininess);\n    @elif",
+        filter: "surface/hardened/permutations:shading=blinn_phong",
+    },
+    Mutant {
+        what: "a point light moved by a hundredth",
+        file: "entry/surface_fragment.wesl",
+        from: "let light_dir = normalise(light.vector.xyz - interpolated.position);",
+        to: "let light_dir = normalise(light.vector.xyz + vec3f(0.01, 0.0, 0.0) - interpolated.position);",
+        filter: "surface/hardened/permutations:shading=blinn_phong",
+    },
+    Mutant {
+        what: "a highlight a tenth of a per cent too bright",
+        file: "techniques/blinn_phong.wesl",
+        from: "return lambert(normal, light_dir) * diffuse + highlight * specular;",
+        to: "return lambert(normal, light_dir) * diffuse + 1.001 * highlight * specular;",
+        filter: "surface/hardened/permutations:shading=blinn_phong",
+    },
+    Mutant {
+        what: "an alpha that is the cutoff cut out",
+        file: "entry/surface_fragment.wesl",
+        from: "if (albedo.a < material.alpha_cutoff) {",
+        to: "if (albedo.a <= material.alpha_cutoff) {",
+        filter: "surface/cutoff:shading=blinn_phong",
+    },
+    Mutant {
+        what: "an alpha below the cutoff kept",
+        file: "entry/surface_fragment.wesl",
+        from: "if (albedo.a < material.alpha_cutoff) {",
+        to: "if (albedo.a < material.alpha_cutoff - 0.0000001) {",
+        filter: "surface/cutoff:shading=blinn_phong",
+    },
+    Mutant {
+        what: "a mirrored object's handedness left as it was",
+        file: "entry/surface_vertex.wesl",
+        from: "return handedness * object.handedness_sign.x;",
+        to: "return handedness;",
+        filter: "surface/vertices",
+    },
+    Mutant {
+        what: "the slopes of displaced vertices off by one per cent",
+        file: "entry/surface_vertex.wesl",
+        from: "object.displacement.x * 0.5 * side,",
+        to: "object.displacement.x * 0.505 * side,",
+        filter: "surface/vertices",
+    },
+    Mutant {
+        what: "vertices in the wrong place of the picture by a thousandth",
+        file: "entry/surface_vertex.wesl",
+        from: "out.clip_position = object.clip_from_local * vec4f(position, 1.0);",
+        to: "out.clip_position = object.clip_from_local * vec4f(position * 1.001, 1.0);",
+        filter: "surface/vertices",
+    },
 ];
 
 fn copy(from: &Path, to: &Path) -> std::io::Result<()> {

@@ -1,35 +1,29 @@
 //! `displacement` drawn: the vertices of a grid and their normals against the reference, the silhouette, and what a finer grid costs.
 //!
-//! - `grid`: a square grid seen from above through an orthographic camera under which every vertex falls on a pixel's centre. There
-//!   a captured interpolant is the vertex' own value: position and normal are compared with the reference's.
+//! - `grid`: a square grid seen from above, vertices and pixels judged as those of any vertex stage (see `vertices`): position and
+//!   normal of every vertex against the reference and the interval of the stage's IR, and what arrives in the picture against both.
 //! - `silhouette`: the same grid seen along its plane. On the columns of pixels that lie on grid lines the highest and the lowest covered
 //!   pixel are those of the highest and the lowest displaced vertex; the flat plane, whatever its fragment stage shifts, covers none.
-//!
-//! What is allowed besides f32: a sampler keeps `SUBTEXEL_BITS` bits of its weights, a rasteriser keeps `SUBPIXEL_BITS` bits of a
-//! vertex' place in the picture, so an interpolant may be taken that share of a pixel beside the vertex.
 
 use std::sync::Arc;
 
-use bossage_assets::{EdgeMode, HeightField};
-use bossage_reference::displacement::{Tile, height, normal, position, slope};
+use bossage_assets::HeightField;
 use bossage_runner::{Blend, Clear, Depth, RenderTarget, TimedJob, TimingOptions};
 use bossage_scene::{Draw, Elevation, HeightSource, TechniquePin};
 use bossage_shaders::{Relief, Stage};
-use glam::{DMat4, DVec2, DVec3, DVec4};
+use glam::{DMat4, DVec2, DVec4};
 
+use super::interpolants::Interpolants;
 use super::rig::{Rig, job, render};
-use super::truth::uniform;
+use super::vertices::{SUBPIXEL_BITS, Sheet, Vertices};
 use crate::bench::Bench;
 use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
 use crate::module::Module;
-use crate::tolerance::{SUBTEXEL_BITS, UNDECIDED_LIMIT};
+use crate::tolerance::UNDECIDED_LIMIT;
 use crate::verdict::Verdict;
-
-/// Bits of a vertex' place in pixels that every rasteriser here keeps (Vulkan's `subPixelPrecisionBits`).
-const SUBPIXEL_BITS: i32 = 8;
 
 /// Rectangles along a side; one vertex more, one pixel a vertex.
 const SEGMENTS: u32 = 63;
@@ -141,10 +135,13 @@ fn through(mut draw: Draw, camera: DMat4) -> Draw {
     draw
 }
 
-/// Pixels along a side: one a vertex.
+/// Pixels along a side of the picture from above: more than one a triangle, and no whole number of them.
+const ABOVE: u32 = 100;
+
+/// Pixels along a side of the silhouette: one a vertex.
 const PIXELS: u32 = SEGMENTS + 1;
 
-/// From x in [−1, 1] to clip space such that vertex i lies on the centre of pixel i.
+/// From x in [−1, 1] to clip space such that vertex i lies on the centre of pixel i of the silhouette.
 fn spread() -> f64 {
     f64::from(SEGMENTS) / f64::from(PIXELS)
 }
@@ -169,99 +166,6 @@ fn from_the_side() -> DMat4 {
     )
 }
 
-/// The reference's vertices, and how far the drawn ones may be off.
-struct Truth {
-    /// Position and normal of vertex (i, j), row by row from v = 0.
-    vertices: Vec<[DVec3; 2]>,
-    allowed: [f64; 2],
-}
-
-impl Truth {
-    /// The height of a vertex is off by twice the sampler's share of a texel of the largest step between texels, and 8 roundings of a
-    /// height of at most 1. Elevation is `scale` times that. A slope is a difference of two heights over two texels, in the mesh's
-    /// units over a tile of `side`; a unit normal turns by no more than the slopes change, by √2 for both. Twenty roundings each.
-    fn new(draw: &Draw) -> Self {
-        let [scale, bias, along_u, along_v] = uniform(draw, "object.displacement").map(f64::from);
-        let vertices: Vec<[DVec3; 2]> = (0..draw.mesh.positions.len())
-            .map(|at| vertex(draw, at, [scale, bias], DVec2::new(along_u, along_v)))
-            .collect();
-        let height_error = 2.0 * 2f64.powi(-SUBTEXEL_BITS) * largest_step(&field()) + 8.0 * 2f64.powi(-24);
-        let slope_error = 2.0 * height_error * scale * 0.5 * f64::from(FIELD_SIDE) / along_u.min(along_v);
-        let rounding = 20.0 * 2f64.powi(-24);
-        let beside = 2.0 * 2f64.powi(-SUBPIXEL_BITS);
-        let apart = |which: usize| beside * neighbours_apart(&vertices, which);
-        let allowed = [
-            scale * height_error + rounding + apart(0),
-            2f64.sqrt() * slope_error + rounding + apart(1),
-        ];
-        Self { vertices, allowed }
-    }
-}
-
-/// Position and normal of one displaced vertex.
-fn vertex(draw: &Draw, at: usize, [scale, bias]: [f64; 2], side: DVec2) -> [DVec3; 2] {
-    let (field, edge) = (field(), draw.edge);
-    let (place, flat) = (
-        draw.mesh.positions[at].as_dvec3(),
-        draw.mesh.normals[at].as_dvec3(),
-    );
-    let (uv, tangent) = (draw.mesh.uvs[at].as_dvec2(), draw.mesh.tangents[at].as_dvec4());
-    let step = 1.0 / f64::from(FIELD_SIDE);
-    let near = |du: f64, dv: f64| height(&field, edge, uv + step * DVec2::new(du, dv));
-    let heights = [near(-1.0, 0.0), near(1.0, 0.0), near(0.0, -1.0), near(0.0, 1.0)];
-    let slopes = slope(heights, DVec2::splat(0.5 * scale * f64::from(FIELD_SIDE)));
-    let tile = Tile {
-        normal: flat,
-        along_u: side.x * tangent.truncate(),
-        along_v: side.y * tangent.w * flat.cross(tangent.truncate()),
-    };
-    [
-        position(place, flat, near(0.0, 0.0), scale, bias, 1.0),
-        normal(&tile, slopes),
-    ]
-}
-
-/// The largest difference between neighbouring texels.
-fn largest_step(field: &HeightField) -> f64 {
-    let at = |x: u32, y: u32| {
-        let wrap = |i: u32| EdgeMode::Wrap.resolve(i64::from(i), FIELD_SIDE);
-        f64::from(field.texel(wrap(x), wrap(y)))
-    };
-    let steps = (0..FIELD_SIDE * FIELD_SIDE).map(|i| {
-        let (x, y) = (i % FIELD_SIDE, i / FIELD_SIDE);
-        let here = at(x, y);
-        (at(x + 1, y) - here).abs().max((at(x, y + 1) - here).abs())
-    });
-    steps.fold(0.0, f64::max)
-}
-
-/// The largest difference of a component between neighbouring vertices.
-fn neighbours_apart(vertices: &[[DVec3; 2]], which: usize) -> f64 {
-    let side = PIXELS as usize;
-    let apart = |a: usize, b: usize| (vertices[a][which] - vertices[b][which]).abs().max_element();
-    let steps = (0..vertices.len()).map(|at| {
-        let right = if at % side + 1 < side {
-            apart(at, at + 1)
-        } else {
-            0.0
-        };
-        let above = if at + side < vertices.len() {
-            apart(at, at + side)
-        } else {
-            0.0
-        };
-        right.max(above)
-    });
-    steps.fold(0.0, f64::max)
-}
-
-fn within(truth: f64, allowed: f64) -> Expected {
-    Expected {
-        truth,
-        bound: Bound::between(truth - allowed, truth + allowed),
-    }
-}
-
 impl DisplacementCase {
     fn camera(&self) -> DMat4 {
         match self.view {
@@ -272,10 +176,9 @@ impl DisplacementCase {
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let draw = displaced(SEGMENTS, self.camera())?;
-        let truth = Truth::new(&draw);
         let (comparison, inputs, note) = match self.view {
-            View::Grid => grid(bench, &draw, &truth)?,
-            View::Silhouette => silhouette(bench, &draw, &truth)?,
+            View::Grid => grid(bench, &draw)?,
+            View::Silhouette => silhouette(bench, &draw)?,
         };
         let outcome = Outcome::of(inputs, comparison, UNDECIDED_LIMIT);
         let passed = outcome.verdict == Verdict::Pass;
@@ -286,79 +189,92 @@ impl DisplacementCase {
     }
 }
 
-/// Every vertex whose pixel is covered: all but the last row and column, which lie on the border that triangles leave out.
-fn grid(bench: &Bench<'_>, draw: &Draw, truth: &Truth) -> Result<(Comparison, usize, String), String> {
+/// Every vertex, and every pixel between them.
+fn grid(bench: &Bench<'_>, draw: &Draw) -> Result<(Comparison, usize, String), String> {
     let rig = Rig::new(bench, draw, &draw.features, &[Stage::FragmentCapture])?;
-    let captured = rig.floats(bench, Stage::FragmentCapture, [PIXELS; 2], 5)?;
-    let covered = captured[0].covered();
-    let mut comparison = Comparison::default();
-    let mut seen = 0;
-    for (at, [place, bent]) in truth.vertices.iter().enumerate() {
-        let (i, j) = (at as u32 % PIXELS, at as u32 / PIXELS);
-        let pixel = ((PIXELS - 1 - j) * PIXELS + i) as usize;
-        let inner = (1..SEGMENTS).contains(&i) && (1..SEGMENTS).contains(&j);
-        if !covered[pixel] {
-            let got = f32::from(u8::from(!inner));
-            comparison.item(&[i as f32, j as f32], &[got], &[within(1.0, 0.0)]);
-            continue;
-        }
-        seen += 1;
-        for (which, expected) in [place, bent].into_iter().enumerate() {
-            let [x, y, z, _] = captured[1 + which].pixels[pixel];
-            let expected = expected
-                .to_array()
-                .map(|truth_of| within(truth_of, truth.allowed[which]));
-            comparison.item(&[i as f32, j as f32], &[x, y, z], &expected);
-        }
-    }
+    let vertices = Vertices::new(&rig)?;
+    let mut comparison = Comparison::demanding_answers();
+    vertices.agree(&mut comparison);
+    let captured = rig.floats(bench, Stage::FragmentCapture, [ABOVE; 2], Interpolants::TARGETS)?;
+    let seen = Sheet::new(draw, &vertices, [ABOVE; 2]).judge(&captured, &mut comparison);
     let note = format!(
-        "{seen} of {} vertices seen; {}",
-        truth.vertices.len(),
+        "{} vertices in {seen} pixels; {}",
+        vertices.truths.len(),
         cost(bench)?
     );
     Ok((comparison, seen, note))
 }
 
 /// The highest and the lowest covered pixel of each column of pixels on a grid line.
-fn silhouette(bench: &Bench<'_>, draw: &Draw, truth: &Truth) -> Result<(Comparison, usize, String), String> {
-    let covered = |draw: &Draw| -> Result<Vec<bool>, String> {
-        let rig = Rig::new(bench, draw, &draw.features, &[Stage::Fragment])?;
+fn silhouette(bench: &Bench<'_>, draw: &Draw) -> Result<(Comparison, usize, String), String> {
+    let rig = Rig::new(bench, draw, &draw.features, &[Stage::Fragment])?;
+    let covered = |rig: &Rig<'_>| -> Result<Vec<bool>, String> {
         Ok(rig
             .floats(bench, Stage::Fragment, [PIXELS; 2], 1)?
             .remove(0)
             .covered())
     };
+    let vertices = Vertices::new(&rig)?;
     let (side, pixel) = (PIXELS as usize, 2.0 * HALF_HEIGHT / f64::from(PIXELS));
-    let drawn = covered(draw)?;
+    let drawn = covered(&rig)?;
     let elevation = |row: usize| HALF_HEIGHT - pixel * (row as f64 + 0.5);
-    let mut comparison = Comparison::default();
+    let mut comparison = Comparison::demanding_answers();
     for column in 1..side - 1 {
         let rows: Vec<usize> = (0..side).filter(|row| drawn[row * side + column]).collect();
-        let heights = (0..side).map(|row| truth.vertices[row * side + column][0].z);
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| {
-            (low.min(z), high.max(z))
-        });
+        // Clip space is as high as the picture, and w is 1.
+        let of_column = (0..side).map(|row| row * side + column);
+        let (highest, lowest) = (
+            edge(&vertices, of_column.clone(), f64::max),
+            edge(&vertices, of_column, f64::min),
+        );
         let (Some(top), Some(bottom)) = (rows.first(), rows.last()) else {
             return Err(format!("column {column} is empty"));
         };
         // The outermost covered centre lies within a pixel inside of the outermost vertex.
-        let slack = truth.allowed[0] + pixel * 2f64.powi(-SUBPIXEL_BITS);
+        let slack = pixel * 2f64.powi(-SUBPIXEL_BITS);
         let got = [elevation(*top), elevation(*bottom)].map(|z| z as f32);
-        let expected = [
-            within(high - 0.5 * pixel, 0.5 * pixel + slack),
-            within(low + 0.5 * pixel, 0.5 * pixel + slack),
-        ];
+        let expected = [(highest, -pixel, 0.0), (lowest, 0.0, pixel)].map(|(edge, below, above)| Expected {
+            truth: edge.truth + 0.5 * (below + above),
+            bound: Bound::between(edge.low + below - slack, edge.high + above + slack),
+        });
         comparison.item(&[column as f32], &got, &expected);
     }
     let flat = through(
         self::draw(TechniquePin::ParallaxOffsetLimited, SEGMENTS)?,
         from_the_side(),
     );
-    let count = covered(&flat)?.into_iter().filter(|covered| *covered).count();
-    comparison.item(&[], &[count as f32], &[within(0.0, 0.0)]);
+    let flat = covered(&Rig::new(bench, &flat, &flat.features, &[Stage::Fragment])?)?;
+    let count = flat.into_iter().filter(|covered| *covered).count();
+    let none = Expected {
+        truth: 0.0,
+        bound: Bound::exactly(0.0),
+    };
+    comparison.item(&[], &[count as f32], &[none]);
     let shown = drawn.iter().filter(|covered| **covered).count();
     let note = format!("seen along its plane the displaced grid covers {shown} pixels, the flat one {count}");
     Ok((comparison, side - 2, note))
+}
+
+/// The outermost elevation of some vertices: the true one, and what it may be.
+#[derive(Clone, Copy, Debug)]
+struct Outermost {
+    truth: f64,
+    low: f64,
+    high: f64,
+}
+
+fn edge(
+    vertices: &Vertices,
+    of: impl Iterator<Item = usize> + Clone,
+    further: fn(f64, f64) -> f64,
+) -> Outermost {
+    let most =
+        |height: &dyn Fn(usize) -> f64| HALF_HEIGHT * of.clone().map(height).reduce(further).unwrap_or(0.0);
+    Outermost {
+        truth: most(&|at| vertices.truths[at].clip[1]),
+        low: most(&|at| vertices.bounds[at].clip[1].low()),
+        high: most(&|at| vertices.bounds[at].clip[1].high()),
+    }
 }
 
 /// What a picture takes with grids of several sizes.
@@ -406,7 +322,11 @@ impl Case for DisplacementCase {
     }
 
     fn basis(&self) -> Vec<&'static str> {
-        vec!["reference f64", "bits of sampler and rasteriser"]
+        vec![
+            "reference f64",
+            "accuracy rules over the shader's IR",
+            "bits of the rasteriser",
+        ]
     }
 
     fn modules(&self) -> Result<Vec<Module>, String> {

@@ -93,7 +93,7 @@ fn apart(planned: &Pixel, full: &Pixel, comparison: &mut Comparison) {
     comparison.item(&planned.place, &got, &[0, 1, 2, 3].map(difference));
 }
 
-fn colours(truth: [f64; 4], bounds: [Bound; 4]) -> [Expected; 4] {
+pub(super) fn colours(truth: [f64; 4], bounds: [Bound; 4]) -> [Expected; 4] {
     std::array::from_fn(|i| Expected {
         truth: truth[i],
         bound: bounds[i],

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bossage_runner::is_unwritten;
+use bossage_runner::{Filter, is_unwritten};
 use bossage_scene::Draw;
 use bossage_shaders::{Alpha, FeatureSet, Stage};
 
@@ -39,8 +39,10 @@ pub(super) struct Object<'a> {
     pub(super) bench: &'a Bench<'a>,
     /// Its place among the case's draws.
     pub(super) number: usize,
-    /// The size of the scene's picture.
+    /// The size of the scene's picture: rendered no larger than [`LONGER_SIDE`], with the same aspect.
     pub(super) size: [u32; 2],
+    /// Between texels.
+    pub(super) filter: Filter,
     pub(super) expectations: &'a Expectations,
 }
 
@@ -48,7 +50,7 @@ impl Object<'_> {
     /// Renders one pass of the object with the draw's shaders, and once more with the capture variant.
     pub(super) fn render(&self, draw: &Draw, stage: Stage) -> Result<Drawn, String> {
         let size = scaled(self.size);
-        let rig = Rig::new(self.bench, draw, &draw.features, &[stage])?;
+        let rig = Rig::new(self.bench, draw, &draw.features, &[stage])?.filtered(self.filter);
         let picture = rig.floats(self.bench, stage, size, 1)?.remove(0);
         let capture = Rig::new(
             self.bench,
@@ -80,7 +82,7 @@ impl Object<'_> {
         stage: Stage,
         points: &[Interpolants],
     ) -> Result<Arc<Vec<Fragment>>, String> {
-        let rig = Rig::new(self.bench, draw, &draw.features, &[stage])?;
+        let rig = Rig::new(self.bench, draw, &draw.features, &[stage])?.filtered(self.filter);
         self.expectations
             .of((self.number, Points::Others), &rig, stage, points)
     }
@@ -119,10 +121,11 @@ pub(super) fn modules(draw: &Draw) -> Vec<Module> {
         .collect()
 }
 
-/// The size with the same aspect whose longer side is [`LONGER_SIDE`].
+/// The size with the same aspect whose longer side is at most [`LONGER_SIDE`].
 fn scaled([width, height]: [u32; 2]) -> [u32; 2] {
     let longer = width.max(height).max(1);
-    [width, height].map(|side| (side * LONGER_SIDE).div_ceil(longer).max(1))
+    let most = longer.min(LONGER_SIDE);
+    [width, height].map(|side| (side * most).div_ceil(longer).max(1))
 }
 
 #[cfg(test)]
@@ -134,5 +137,6 @@ mod tests {
         assert_eq!(scaled([800, 600]), [96, 72]);
         assert_eq!(scaled([600, 1200]), [48, 96]);
         assert_eq!(scaled([1, 10_000]), [1, 96]);
+        assert_eq!(scaled([40, 30]), [40, 30]);
     }
 }

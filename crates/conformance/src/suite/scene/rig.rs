@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bossage_runner::{
-    Blend, Clear, Cull, Depth, Draw as RunnerDraw, Mesh, Picture, RenderJob, RenderTarget, Resources,
+    Blend, Clear, Cull, Depth, Draw as RunnerDraw, Filter, Mesh, Picture, RenderJob, RenderTarget, Resources,
     SamplerSettings, Shader, TextureData,
 };
 use bossage_scene::Draw;
@@ -29,6 +29,7 @@ pub(super) struct Rig<'a> {
     fragments: BTreeMap<Stage, Arc<Prepared>>,
     mesh: Mesh,
     textures: Vec<(String, TextureData)>,
+    filter: Filter,
 }
 
 impl<'a> Rig<'a> {
@@ -48,7 +49,13 @@ impl<'a> Rig<'a> {
             fragments: fragments.iter().map(prepared).collect::<Result<_, String>>()?,
             mesh: mesh(draw),
             textures: textures(draw),
+            filter: SamplerSettings::default().filter,
         })
+    }
+
+    /// The same with another filter between texels.
+    pub(super) fn filtered(self, filter: Filter) -> Self {
+        Self { filter, ..self }
     }
 
     /// What is drawn.
@@ -59,6 +66,23 @@ impl<'a> Rig<'a> {
     /// The assembled text of a fragment module.
     pub(super) fn text(&self, stage: Stage) -> Result<&str, String> {
         Ok(self.module(stage)?.text())
+    }
+
+    /// The acceptance intervals of what the vertex stage makes of the mesh.
+    pub(super) fn vertices(&self) -> Result<Outputs, String> {
+        let three = |vectors: &[glam::Vec3]| vectors.iter().map(|v| v.to_array()).collect::<Vec<_>>();
+        let mesh = &self.draw.mesh;
+        let inputs = Inputs::new(mesh.positions.len())
+            .with("position", three(&mesh.positions).into_iter())
+            .with("normal", three(&mesh.normals).into_iter())
+            .with("uv", mesh.uvs.iter().map(|uv| uv.to_array()))
+            .with("tangent", mesh.tangents.iter().map(|t| t.to_array()));
+        let stage = oracle::Stage {
+            module: &self.vertex,
+            entry: VERTEX,
+            resources: &self.resources(&[&self.vertex.shader(VERTEX)?]),
+        };
+        stage.vertices(&inputs)
     }
 
     /// The acceptance intervals of a fragment module's outputs.
@@ -105,6 +129,7 @@ impl<'a> Rig<'a> {
         let bound = |name: &str| stages.iter().any(|stage| stage.binding(name).is_some());
         let sampler = SamplerSettings {
             address: address(self.draw.edge),
+            filter: self.filter,
             ..SamplerSettings::default()
         };
         let named = self.textures.iter().filter(|(name, _)| bound(name));

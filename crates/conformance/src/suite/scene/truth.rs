@@ -16,7 +16,7 @@ use bossage_shaders::{
 use glam::{DVec2, DVec3, DVec4};
 
 /// Level 0 of a plane as the sampler returns it.
-fn plane(draw: &Draw, name: &str) -> Option<Texture> {
+pub(super) fn plane(draw: &Draw, name: &str) -> Option<Texture> {
     let texture = draw.textures.get(name)?;
     let level = texture
         .levels

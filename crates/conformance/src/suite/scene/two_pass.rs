@@ -2,9 +2,9 @@
 //!
 //! What is judged, channel by channel of every covered pixel:
 //!
-//! - the colours that the three shaders write (one pass, first, second), taken from float targets, against the f64 surface, within
-//!   what filtering the maps may change (`Allowance`);
-//! - the bytes of one pass: the colour's nearest code;
+//! - the colours that the three shaders write (one pass, first, second), taken from float targets, against the f64 surface and the
+//!   acceptance intervals of the three fragment stages' own IR, as in any scene;
+//! - the bytes of one pass: the nearest code of the colour that the shader wrote;
 //! - the bytes of two: the first pass' code times the second's colour, as the reference's `second_pass` has it, with the liberties
 //!   of a blending unit: it may round its source first, and take either code around the product;
 //! - both pictures against each other: at most `LARGEST_DIFFERENCE_CODES`.
@@ -19,21 +19,23 @@ use bossage_assets::normal_mips::NormalMips;
 use bossage_assets::normalisation_cube_map::{Depth as Bits, NormalisationCubeMap};
 use bossage_assets::{ColorMap, NormalCodec, NormalMap};
 use bossage_reference::dot3_two_pass::{Blender, LARGEST_DIFFERENCE_CODES, Target, first_pass, second_pass};
-use bossage_reference::surface::{Fragment, Interpolants, shade};
 use bossage_runner::{Blend, Depth, Picture, RenderTarget, TimedJob, Timing, TimingOptions};
-use bossage_scene::{Draw, Level, NormalSource, Normaliser, Scene, Texels, Texture, TextureShape};
+use bossage_scene::{Draw, NormalSource, Normaliser, Scene};
 use bossage_shaders::{FeatureSet, Shading, Stage};
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec3};
 
+use super::expected::{Fragment, fragments};
+use super::interpolants::Interpolants;
+use super::judge::colours;
 use super::rig::{Rig, job, render};
-use super::truth::{material, view};
+use super::specimen::floats;
 use crate::bench::Bench;
 use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
 use crate::module::Module;
-use crate::tolerance::{SUBTEXEL_BITS, UNDECIDED_LIMIT};
+use crate::tolerance::UNDECIDED_LIMIT;
 use crate::verdict::Verdict;
 
 /// Pixels along a side.
@@ -155,83 +157,9 @@ fn draw(shading: Shading, cube: bool) -> Result<Draw, String> {
         ));
     }
     for texture in draw.textures.values_mut() {
-        if let Some(floats) = floats(texture) {
-            *texture = Arc::new(floats);
-        }
+        *texture = Arc::new(floats(texture));
     }
     Ok(draw)
-}
-
-/// The first level of a plane of bytes, in floats.
-fn floats(texture: &Texture) -> Option<Texture> {
-    let level = texture
-        .levels
-        .first()
-        .filter(|_| texture.shape == TextureShape::Plane)?;
-    let Texels::Rgba8Unorm(bytes) = &level.texels else {
-        return None;
-    };
-    let texels = bytes
-        .iter()
-        .map(|texel| texel.map(|byte| f32::from(byte) / 255.0));
-    Some(Texture {
-        shape: TextureShape::Plane,
-        levels: vec![Level {
-            texels: Texels::Rgba32Float(texels.collect()),
-            ..*level
-        }],
-    })
-}
-
-/// How far filtering, and f32, may take the shaders' colours from the f64 surface's.
-#[derive(Clone, Copy, Debug)]
-struct Allowance {
-    /// The light: ambient + radiance · I.
-    light: f64,
-    /// The surface's colour.
-    colour: f64,
-}
-
-impl Allowance {
-    /// A sampler's weights keep [`SUBTEXEL_BITS`] bits: along each axis it may be that share of a texel off, and so off by that share
-    /// of the largest step between neighbours; its arithmetic in floats adds 8·2⁻²⁴, in 16-bit integers two steps. In the cube, one
-    /// texel turns the direction by at most 2/size, so a colour changes by 1/size. I = 4 Σ (a − ½)(b − ½) of two colours within
-    /// ½·1.01 of grey (maps in bytes are up to 1.01 long): at most 4·√3·½·1.01 times the sum of their largest errors. Frame, light vector and
-    /// division are some twenty roundings: 32·2⁻²⁴ of a light of at most 2.
-    fn new(draw: &Draw, cube: bool) -> Self {
-        let weights = 2.0 * 2f64.powi(-SUBTEXEL_BITS);
-        let rounding = 8.0 * 2f64.powi(-24);
-        let off = |name: &str| weights * largest_step(draw, name) + rounding;
-        let light_colour = if cube {
-            weights / f64::from(CUBE_SIDE) + 2.0 / 65535.0 + 4.0 * rounding
-        } else {
-            4.0 * rounding
-        };
-        let lengths = 4.0 * 3f64.sqrt() * 0.5 * 1.01;
-        Self {
-            light: lengths * (off("normal_map") + light_colour) + 64.0 * 2f64.powi(-24),
-            colour: off("albedo_map"),
-        }
-    }
-}
-
-/// The largest difference between neighbouring texels, over all channels. The maps repeat.
-fn largest_step(draw: &Draw, name: &str) -> f64 {
-    let texels = match draw.textures.get(name).and_then(|texture| texture.levels.first()) {
-        Some(Level {
-            texels: Texels::Rgba32Float(texels),
-            ..
-        }) => texels.as_slice(),
-        _ => return 1.0,
-    };
-    let side = MAP_SIDE as usize;
-    let step = |at: usize| {
-        let (x, y) = (at % side, at / side);
-        let neighbours = [y * side + (x + 1) % side, (y + 1) % side * side + x];
-        let apart = |other: usize| (0..4).map(move |c| (texels[at][c] - texels[other][c]).abs());
-        neighbours.into_iter().flat_map(apart).fold(0.0, f32::max)
-    };
-    f64::from((0..texels.len()).map(step).fold(0.0, f32::max))
 }
 
 /// Everything that was drawn.
@@ -240,8 +168,8 @@ struct Drawn {
     single: Picture,
     first: Picture,
     second: Picture,
-    /// The interpolants: position, normal, tangent, uv.
-    captured: Vec<Picture>,
+    /// What the three should have written, at the covered pixels in turn.
+    expected: [Vec<Fragment>; 3],
     /// The targets of bytes.
     in_one: Vec<[u8; 4]>,
     in_two: Vec<[u8; 4]>,
@@ -260,7 +188,12 @@ impl Drawn {
         )?;
         let double = Rig::new(bench, two, &two.features, &[Stage::Fragment, Stage::SecondPass])?;
         let floats = |rig: &Rig<'_>, stage| Ok::<_, String>(rig.floats(bench, stage, SIZE, 1)?.remove(0));
-        let captured = single.floats(bench, Stage::FragmentCapture, SIZE, 5)?;
+        let captured = single.floats(bench, Stage::FragmentCapture, SIZE, Interpolants::TARGETS)?;
+        let covered = (0_usize..).zip(captured[0].covered());
+        let points: Vec<Interpolants> = covered
+            .filter(|(_, covered)| *covered)
+            .map(|(at, _)| Interpolants::captured(&captured, at))
+            .collect();
         let codes = |passes| {
             let target = RenderTarget::bytes(BACKGROUND.map(|code| f32::from(code) / 255.0));
             let picture = render(bench, &job("cube", SIZE, vec![target], passes))?.remove(0);
@@ -272,7 +205,11 @@ impl Drawn {
             single: floats(&single, Stage::Fragment)?,
             first: floats(&double, Stage::Fragment)?,
             second: floats(&double, Stage::SecondPass)?,
-            captured: captured.into_iter().skip(1).collect(),
+            expected: [
+                fragments(&single, Stage::Fragment, &points)?,
+                fragments(&double, Stage::Fragment, &points)?,
+                fragments(&double, Stage::SecondPass, &points)?,
+            ],
             in_one: codes(vec![vec![single.with(
                 Stage::Fragment,
                 Blend::Replace,
@@ -283,16 +220,6 @@ impl Drawn {
                 vec![double.with(Stage::SecondPass, Blend::Multiply, Depth::Equal)?],
             ])?,
         })
-    }
-
-    fn interpolants(&self, at: usize) -> Interpolants {
-        let read = |target: usize| DVec4::from_array(self.captured[target].pixels[at].map(f64::from));
-        Interpolants {
-            position: read(0).truncate(),
-            normal: read(1).truncate(),
-            tangent: read(2),
-            uv: read(3).truncate().truncate(),
-        }
     }
 }
 
@@ -381,7 +308,6 @@ impl TwoPassCase {
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let [one, two] = self.draws()?;
         let drawn = Drawn::new(bench, &one, &two)?;
-        let truth = Truth::new(&one, &two, Allowance::new(&one, self.cube));
         let covered = drawn.single.covered();
         let mut found = Found::default();
         for (at, covered) in covered.into_iter().enumerate() {
@@ -392,12 +318,15 @@ impl TwoPassCase {
                 found.comparison.item(&place, &[got], &[between(1.0, 1.0, 1.0)]);
                 continue;
             }
-            found.pixels += 1;
             let written = [&drawn.single, &drawn.first, &drawn.second].map(|picture| picture.pixels[at]);
-            let expected = truth.of(&drawn.interpolants(at));
-            for (got, expected) in written.iter().zip(expected) {
-                found.comparison.item(&place, got, &expected);
+            for (got, expected) in written.iter().zip(&drawn.expected) {
+                let fragment = expected[found.pixels];
+                let truth = fragment.truth.ok_or("the reference discards what has no mask")?;
+                found
+                    .comparison
+                    .item(&place, got, &colours(truth, fragment.color));
             }
+            found.pixels += 1;
             found.bytes(&place, written, drawn.in_one[at], drawn.in_two[at]);
         }
         let note = self.note(bench, &found, &one, &two)?;
@@ -476,40 +405,6 @@ fn said(times: &[Timing]) -> Option<String> {
     ))
 }
 
-/// The f64 surface of the three shaders.
-struct Truth<'a> {
-    one: &'a Draw,
-    materials: [bossage_reference::surface::Material; 3],
-    allowance: Allowance,
-}
-
-impl<'a> Truth<'a> {
-    fn new(one: &'a Draw, two: &'a Draw, allowance: Allowance) -> Self {
-        Self {
-            one,
-            materials: [
-                material(one, Stage::Fragment),
-                material(two, Stage::Fragment),
-                material(two, Stage::SecondPass),
-            ],
-            allowance,
-        }
-    }
-
-    fn of(&self, at: &Interpolants) -> [[Expected; 4]; 3] {
-        let (viewer, lights, form) = view(self.one);
-        let Allowance { light, colour } = self.allowance;
-        let allowed = [light + colour, light, colour];
-        std::array::from_fn(|pass| {
-            let truth = match shade(&self.materials[pass], &lights, &viewer, at, form) {
-                Fragment::Color(colour) => colour.to_array(),
-                Fragment::Discarded => [f64::NAN; 4],
-            };
-            truth.map(|truth| between(truth, truth - allowed[pass], truth + allowed[pass]))
-        })
-    }
-}
-
 impl Case for TwoPassCase {
     fn id(&self) -> &CaseId {
         &self.id
@@ -518,6 +413,7 @@ impl Case for TwoPassCase {
     fn basis(&self) -> Vec<&'static str> {
         vec![
             "reference f64",
+            "accuracy rules over the shaders' IR",
             "the target's quantum",
             "liberties of a blending unit",
         ]
