@@ -1,7 +1,8 @@
-//! What may stay undecided, and what a sampler may lose.
+//! What may stay undecided.
 //!
 //! No tolerance of an output is written down: it is the acceptance interval that `bossage-bounds` evaluates from the IR of what is
-//! run ([`crate::oracle`], [`crate::width`] for how wide they are). Left are limits of shares, and the precision of filters.
+//! run ([`crate::oracle`], [`crate::width`] for how wide they are). What a sampler may lose is part of it. Left are limits of
+//! shares.
 
 /// The largest share of outputs of one random case that may be undecided before the case is a warning. Inputs of random cases
 /// are drawn from the documented domain, where a hardened function leaves nothing open but isolated ties.
@@ -23,7 +24,3 @@ pub fn undecided_limit(function: &str) -> f64 {
 /// The same for pixels whose textures the driver filters: an alpha test near its cutoff, or a highlight near its end, is undecided
 /// within the filter's allowance, which is much wider than rounding, so more pixels may be.
 pub const UNDECIDED_LIMIT_FILTERED: f64 = 0.03;
-
-/// Bits that a sampler keeps of a filter weight: what Vulkan's `subTexelPrecisionBits` is on the software drivers, and the
-/// least that Direct3D allows.
-pub const SUBTEXEL_BITS: i32 = 8;

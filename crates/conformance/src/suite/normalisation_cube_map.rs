@@ -5,22 +5,21 @@
 //! did: the figures that are known for 8 bits are its. `sampler` is the adapter's own linear filter, which goes on across the
 //! edges of faces; there the clamp of half a texel is gone, and with it the larger part of the largest error.
 //!
-//! Directions are spread evenly over the cube's faces, of lengths 2⁻¹⁰ to 2¹⁰. Every component must lie in the range of the filtered
-//! surface around the place where the sample may lie, and the angle errors must be those of the f64 filter within
+//! Directions are spread evenly over the cube's faces, of lengths 2⁻¹⁰ to 2¹⁰. Every component must lie in the acceptance interval of
+//! the kernel's own IR, in which the sampler's liberties are, and so must the reference's; the angle errors must be those of the f64 filter within
 //! `ANGLE_SHARE`, for `face` at 8 bits those that are stated too.
 
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use bossage_assets::Texels as Stored;
 use bossage_assets::normalisation_cube_map::{Depth, NormalisationCubeMap};
-use bossage_reference::cube::{Seams, face_and_st, point, sample};
+use bossage_reference::cube::{Seams, sample};
 use bossage_reference::normalisation_cube_map::{Depth as TruthDepth, Map, faces_evenly};
 use bossage_reference::sphere::angle_deg;
-use bossage_runner::{
-    AddressMode, BufferData, ComputeJob, Filter, Resources, SamplerSettings, TexelFormat, TextureData,
-};
+use bossage_runner::{AddressMode, BufferData, Filter, Resources, SamplerSettings, TexelFormat, TextureData};
 use bossage_shaders::Kernel;
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
 use crate::bench::Bench;
@@ -29,8 +28,10 @@ use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::Expected;
 use crate::deviation::{self, Judged};
+use crate::dispatch::{Dispatch, Kept, float_bounds};
 use crate::module::Module;
-use crate::tolerance::{SUBTEXEL_BITS, UNDECIDED_LIMIT};
+use crate::route::Prepared;
+use crate::tolerance::UNDECIDED_LIMIT;
 use crate::verdict::Verdict;
 
 /// Directions a face where figures are stated. The largest angle found grows with their number: with this one it is what it was
@@ -50,6 +51,9 @@ const STATED_DEG: [(u32, f64, f64); 4] = [
     (256, 0.129, 0.37),
 ];
 
+/// What the kernels write.
+const COLOURS: &str = "colours";
+
 /// What known deviations of the adapter's own filter are listed under.
 const SUBJECT: &str = "normalisation_cube_map/lookup";
 
@@ -60,7 +64,7 @@ struct CubeCase {
     depth: Depth,
     kernel: Kernel,
     directions: OnceLock<Vec<[f32; 4]>>,
-    expected: OnceLock<Vec<[Expected; 4]>>,
+    expected: Kept<Vec<[Expected; 4]>>,
 }
 
 /// Every stated size, at 8 and 16 bits, with both filters.
@@ -116,7 +120,7 @@ impl CubeCase {
             depth,
             kernel,
             directions: OnceLock::new(),
-            expected: OnceLock::new(),
+            expected: Kept::default(),
         }
     }
 
@@ -179,11 +183,9 @@ impl CubeCase {
         TextureData::cube("normalisation_map", self.size, format, &faces).map_err(|error| with_causes(&error))
     }
 
-    /// What the adapter makes of the directions.
-    fn colours(&self, bench: &Bench<'_>) -> Result<Vec<f32>, String> {
-        let module = bench.module(&Module::Kernel(self.kernel))?;
-        let shader = module.shader(self.kernel.entry())?;
-        let (texture, directions) = (self.texture()?, self.directions());
+    /// What is dispatched, with that map.
+    fn dispatch<'a>(&'a self, name: &'a str, texture: &'a TextureData) -> Dispatch<'a> {
+        let directions = self.directions();
         let filter = if self.is_in_face() {
             Filter::Nearest
         } else {
@@ -196,99 +198,53 @@ impl CubeCase {
             anisotropy: 1,
         };
         let mut resources = Resources::default();
-        resources
-            .textures
-            .insert("normalisation_map".to_owned(), &texture);
+        resources.textures.insert("normalisation_map".to_owned(), texture);
         resources.samplers.insert("surface_sampler".to_owned(), sampler);
         let inputs = BufferData::Bytes(bytemuck::cast_slice(directions));
         resources.buffers.insert("directions".to_owned(), inputs);
         let outputs = BufferData::Output(16 * directions.len());
-        resources.buffers.insert("colours".to_owned(), outputs);
-        let name = self.id.to_string();
-        let items = directions.len() as u32;
-        let job = ComputeJob {
-            name: &name,
-            shader,
+        resources.buffers.insert(COLOURS.to_owned(), outputs);
+        Dispatch {
+            name,
+            kernel: self.kernel,
             resources,
-            workgroups: [items.div_ceil(self.kernel.workgroup_size()[0]), 1, 1],
-        };
-        let output = job.run(bench.device).map_err(|error| with_causes(&error))?;
-        Ok(output.floats("colours"))
-    }
-
-    fn expected(&self) -> &[[Expected; 4]] {
-        self.expected.get_or_init(|| {
-            let texels = Texels::new(self.map());
-            let of = |direction: &[f32; 4]| self.bound(&texels, vector(direction));
-            self.directions().par_iter().map(of).collect()
-        })
-    }
-
-    /// The range of the filtered colour over the square of places at which the sample may lie.
-    fn bound(&self, texels: &Texels, direction: DVec3) -> [Expected; 4] {
-        let (face, st) = face_and_st(direction);
-        let at = st * f64::from(self.size) - 0.5;
-        let radius = self.radius_texels();
-        let (low, high) = (at - radius, at + radius);
-        let nominal = texels.sample(direction).to_array();
-        let mut range = (nominal, nominal);
-        for (x, y) in stations(low, high) {
-            // Beyond the border of a face filtered alone lies its border texel, beyond that of others the next face.
-            let place = (DVec2::new(x, y) + 0.5) / f64::from(self.size);
-            let colour = match self.is_in_face() {
-                true => texels.sample_in_face(face, place),
-                false => texels.sample(point(face, place)),
-            };
-            for (channel, value) in colour.to_array().into_iter().enumerate() {
-                range.0[channel] = range.0[channel].min(value);
-                range.1[channel] = range.1[channel].max(value);
-            }
+            invocations: [directions.len() as u32, 1, 1],
         }
-        let slack = self.slack();
-        std::array::from_fn(|channel| Expected {
-            truth: nominal[channel],
-            bound: Bound::between(range.0[channel] - slack, range.1[channel] + slack),
-        })
     }
 
-    /// How far from its true place a sample may be taken, in texels. The place on the face is a quotient (2.5 ULP of at most 1),
-    /// halved, shifted by ½, scaled by the size and shifted by ½ again, each rounded: 8·2⁻²⁴ of the size is above their sum. A
-    /// sampler keeps [`SUBTEXEL_BITS`] of the weights besides.
-    fn radius_texels(&self) -> f64 {
-        let rounding = 8.0 * 2f64.powi(-24) * f64::from(self.size);
-        let weights = if self.is_in_face() {
-            0.0
-        } else {
-            2f64.powi(-SUBTEXEL_BITS)
+    /// Both oracles of each direction: the reference's filter, and the interval of the kernel's own IR.
+    fn expected(&self, module: &Prepared, dispatch: &Dispatch<'_>) -> Result<Vec<[Expected; 4]>, String> {
+        let mut accepted = dispatch.accepted(module, &BTreeMap::new())?;
+        let colours = accepted.remove(COLOURS).ok_or("the kernel leaves no colours")?;
+        let bounds = float_bounds(&colours);
+        let texels = Texels::new(self.map());
+        let of = |(direction, bounds): (&[f32; 4], &[Bound; 4])| {
+            let truth = texels.sample(vector(direction)).to_array();
+            std::array::from_fn(|channel| Expected {
+                truth: truth[channel],
+                bound: bounds[channel],
+            })
         };
-        rounding + weights
-    }
-
-    /// What the filter's arithmetic may add. Our own: reading a code is a product with a rounded constant and a rounding (2 ULP below
-    /// 1), and two mixes in turn are three roundings each: 8·2⁻²⁴. A sampler's: two steps of the texels' integers, one along each
-    /// axis, where it filters in integers, and the same roundings.
-    fn slack(&self) -> f64 {
-        let rounding = 8.0 * 2f64.powi(-24);
-        if self.is_in_face() {
-            return rounding;
-        }
-        let step = match self.depth {
-            Depth::Eight => 1.0 / 255.0,
-            Depth::Sixteen => 1.0 / 65535.0,
-        };
-        2.0 * step + rounding
+        let each = self.directions().par_iter().zip(bounds.as_chunks::<4>().0);
+        Ok(each.map(of).collect())
     }
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
-        let colours = self.colours(bench)?;
-        let (directions, expected) = (self.directions(), self.expected());
+        let (name, texture) = (self.id.to_string(), self.texture()?);
+        let dispatch = self.dispatch(&name, &texture);
+        let colours = dispatch.run(bench)?.floats(COLOURS);
+        let module = bench.module(&Module::Kernel(self.kernel))?;
+        let expected = self
+            .expected
+            .for_text(module.text(), || self.expected(&module, &dispatch))?;
+        let directions = self.directions();
         let found = colours.as_chunks::<4>().0;
         if found.len() != directions.len() {
             return Err(format!("{} colours of {}", found.len(), directions.len()));
         }
         let known = deviation::of(SUBJECT, bench.route, bench.device.info()).filter(|_| !self.is_in_face());
         let mut judged = Judged::new(known);
-        for ((direction, got), expected) in directions.iter().zip(found).zip(expected) {
+        for ((direction, got), expected) in directions.iter().zip(found).zip(expected.iter()) {
             judged.item(&self.item(direction), got, expected);
         }
         let errors = |colour: &dyn Fn(usize) -> DVec3| -> Angles {
@@ -335,18 +291,6 @@ fn vector(v: &[f32; 4]) -> DVec3 {
     DVec4::from_array(v.map(f64::from)).truncate()
 }
 
-/// The corners of the pieces into which texel lines cut a square: the filtered surface has its extremes there.
-fn stations(low: DVec2, high: DVec2) -> impl Iterator<Item = (f64, f64)> {
-    let along = |low: f64, high: f64| {
-        let lines = (low.floor() as i64 + 1..).map(|line| line as f64);
-        let inner = lines.take_while(move |line| *line < high);
-        [low, high].into_iter().chain(inner).collect::<Vec<_>>()
-    };
-    let (xs, ys) = (along(low.x, high.x), along(low.y, high.y));
-    ys.into_iter()
-        .flat_map(move |y| xs.clone().into_iter().map(move |x| (x, y)))
-}
-
 /// The reference's texels, computed once.
 struct Texels {
     map: Map,
@@ -373,17 +317,6 @@ impl Texels {
             self.texel(face, x, y)
         })
     }
-
-    /// As [`Self::sample`] within a face, at a place that may lie a little beyond it.
-    fn sample_in_face(&self, face: usize, st: DVec2) -> DVec4 {
-        let p = st * f64::from(self.map.size) - 0.5;
-        let cell = p.floor();
-        let clamp = |i: f64| i.clamp(0.0, f64::from(self.map.size - 1)) as u32;
-        let texel = |dx: f64, dy: f64| self.texel(face, clamp(cell.x + dx), clamp(cell.y + dy));
-        let f = p - cell;
-        let near = texel(0.0, 0.0).lerp(texel(1.0, 0.0), f.x);
-        near.lerp(texel(0.0, 1.0).lerp(texel(1.0, 1.0), f.x), f.y)
-    }
 }
 
 impl Case for CubeCase {
@@ -392,7 +325,11 @@ impl Case for CubeCase {
     }
 
     fn basis(&self) -> Vec<&'static str> {
-        vec!["reference f64", "range of the filter", "stated angle errors"]
+        vec![
+            "reference f64",
+            "accuracy rules over the shader's IR",
+            "stated angle errors",
+        ]
     }
 
     fn modules(&self) -> Result<Vec<Module>, String> {
@@ -426,14 +363,5 @@ mod tests {
         let angles = Angles::of(&[3.0, 4.0, 0.0, 0.0]);
         assert_eq!(angles, Angles { rms: 2.5, max: 4.0 });
         assert!(angles.are(2.6, 3.8) && !angles.are(2.2, 4.0) && !angles.are(2.5, 4.5));
-    }
-
-    #[test]
-    fn a_sample_beyond_the_border_of_its_face_is_the_border() {
-        let texels = Texels::new(Map::new(4, TruthDepth::Exact));
-        let corner = texels.sample_in_face(2, DVec2::splat(-0.1));
-        assert_eq!(corner, texels.texel(2, 0, 0));
-        let middle = point(2, DVec2::splat(0.5));
-        assert!((texels.sample_in_face(2, DVec2::splat(0.5)) - texels.sample(middle)).length() < 1e-15);
     }
 }
