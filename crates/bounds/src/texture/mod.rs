@@ -318,6 +318,9 @@ pub struct Sampler {
     pub compare: Option<CompareFunction>,
     /// What [`AddressMode::ClampToBorder`] reads.
     pub border: [f32; 4],
+    /// Whether the filter is known to be the ideal one: exact weights, rounded once, as the evaluator's own is. Interval domains then allow
+    /// nothing for sub-texel bits and for arithmetic in the texels' precision.
+    pub ideal: bool,
 }
 
 impl Default for Sampler {
@@ -330,6 +333,7 @@ impl Default for Sampler {
             lod: (0.0, 32.0),
             compare: None,
             border: [0.0; 4],
+            ideal: false,
         }
     }
 }

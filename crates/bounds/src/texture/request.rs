@@ -42,7 +42,13 @@ impl Request<'_> {
 
     /// What a filter's arithmetic may add along one axis.
     fn allowance(&self, uncertain: bool) -> Option<f64> {
-        uncertain.then(|| self.texture.format().filter_step())
+        self.may_differ(uncertain)
+            .then(|| self.texture.format().filter_step())
+    }
+
+    /// Whether the filter may differ from the ideal one.
+    fn may_differ(&self, uncertain: bool) -> bool {
+        uncertain && !self.sampler.ideal
     }
 
     /// The level of detail for a change of the coordinate along x and along y.
@@ -158,7 +164,14 @@ impl Request<'_> {
         let size = self.texture.size(level);
         let axis = |k: usize| {
             if k < self.axes() {
-                Axis::new(self.at[k], size[k], self.offset[k], filter, uncertain, self.limit)
+                Axis::new(
+                    self.at[k],
+                    size[k],
+                    self.offset[k],
+                    filter,
+                    self.may_differ(uncertain),
+                    self.limit,
+                )
             } else {
                 Ok(Axis::flat())
             }
@@ -196,7 +209,7 @@ impl Request<'_> {
         uncertain: bool,
     ) -> Result<Channels, TooWide> {
         let n = self.texture.size(level)[0];
-        let axis = |k: usize| Axis::new(at[k], n, 0, filter, uncertain, self.limit);
+        let axis = |k: usize| Axis::new(at[k], n, 0, filter, self.may_differ(uncertain), self.limit);
         let axes = [axis(0)?, axis(1)?, Axis::flat()];
         Ok(filtered(&axes, self.allowance(uncertain), &mut |[i, j, _]| {
             self.cube_texel(level, layer, (face, i, j), n, uncertain)
@@ -215,7 +228,7 @@ impl Request<'_> {
         let texels = list
             .iter()
             .map(|&(f, x, y)| self.compared(self.texture.texel(level, [x, y, 0], 6 * layer + f)));
-        if uncertain {
+        if self.may_differ(uncertain) {
             return texels.reduce(filter::hull).unwrap_or([(0.0, 0.0); 4]);
         }
         let count = list.len() as f64;
@@ -275,7 +288,16 @@ impl Request<'_> {
             let n = self.texture.size(0)[0];
             let mut total: Option<Channels> = None;
             for (face, at) in cube::faces(self.at, uncertain) {
-                let axis = |k: usize| Axis::new(at[k], n, 0, Filter::Linear, uncertain, self.limit);
+                let axis = |k: usize| {
+                    Axis::new(
+                        at[k],
+                        n,
+                        0,
+                        Filter::Linear,
+                        self.may_differ(uncertain),
+                        self.limit,
+                    )
+                };
                 let fetch = |i, j| self.cube_texel(0, layer, (face, i, j), n, uncertain)[component];
                 let value = four(&axis(0)?, &axis(1)?, &fetch);
                 total = Some(total.map_or(value, |t| filter::hull(t, value)));

@@ -103,3 +103,45 @@ fn a_level_that_follows_from_unknown_derivatives_is_open() {
     assert!(red(&one, 0.5).flags.is_none());
     assert!(red(&two, 0.5).is_indeterminate());
 }
+
+#[test]
+fn an_ideal_filter_is_allowed_nothing_but_rounding() {
+    let sampler = |ideal| Sampler {
+        ideal,
+        ..Sampler::linear(AddressMode::ClampToEdge)
+    };
+    let texture = row(TexelFormat::Rgba8Unorm, &[10], &[210]);
+    let red = |ideal, u: f64| {
+        let mut bindings =
+            Bindings::<Accept>::new()
+                .texture(0, 0, texture.clone())
+                .sampler(0, 1, sampler(ideal));
+        let input = StageInputs::new(1)
+            .location(0, 2, &[Interval::point(u), Interval::point(0.5)])
+            .lone();
+        run_fragment(&program(LOOKUP), &mut bindings, &input, &Limits::default())
+            .expect("the shader runs")
+            .0
+            .location(0, 0)
+            .expect("the colour is there")[0]
+    };
+    for k in 0..40 {
+        let u = f64::from(0.27 + 0.0112 * k as f32);
+        let mut point = Bindings::<F32>::new()
+            .texture(0, 0, texture.clone())
+            .sampler(0, 1, sampler(true));
+        let input = StageInputs::new(1).location(0, 2, &[u, 0.5]).lone();
+        let (machine, _) =
+            run_fragment(&program(LOOKUP), &mut point, &input, &Limits::default()).expect("it runs");
+        let machine = machine.location(0, 0).expect("the colour is there")[0];
+        let (ideal, any) = (red(true, u), red(false, u));
+        assert!(
+            ideal.contains(machine) && any.contains(machine),
+            "{u}: {machine} {ideal:?}"
+        );
+        assert!(
+            ideal.hi - ideal.lo < 1e-6 && any.hi - any.lo > 1e-6,
+            "{u}: {ideal:?} {any:?}"
+        );
+    }
+}

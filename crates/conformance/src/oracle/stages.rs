@@ -111,6 +111,8 @@ pub(crate) struct Stage<'a> {
     pub(crate) module: &'a Prepared,
     pub(crate) entry: &'a str,
     pub(crate) resources: &'a Resources<'a>,
+    /// Whether what runs it filters textures ideally, as the evaluator does.
+    pub(crate) ideal_filter: bool,
 }
 
 impl Stage<'_> {
@@ -158,6 +160,9 @@ impl Stage<'_> {
         let resolved =
             resolve(self.entry, &[&shader], self.resources).map_err(|error| with_causes(&error))?;
         let mut bindings = bindings::<Accept>(self.entry, &resolved).map_err(|error| with_causes(&error))?;
+        for sampler in bindings.samplers.values_mut().flatten() {
+            sampler.ideal = self.ideal_filter;
+        }
         let (outputs, _) = run(&mut bindings).map_err(|error| with_causes(&error))?;
         Ok(Outputs(outputs))
     }

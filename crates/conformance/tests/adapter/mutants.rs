@@ -351,23 +351,28 @@ fn selection(filter: &str) -> Selection {
     }
 }
 
+/// The library with the fault in it.
+fn broken(mutant: &Mutant) -> Library {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    copy(&root().join("shaders"), folder.path()).expect("the shaders can be copied");
+    let file = folder.path().join(mutant.file);
+    let text = std::fs::read_to_string(&file).expect("the mutant's file is there");
+    assert!(
+        text.contains(mutant.from),
+        "{}: `{}` is not in {}",
+        mutant.what,
+        mutant.from,
+        mutant.file
+    );
+    std::fs::write(&file, text.replace(mutant.from, mutant.to)).expect("the copy can be written");
+    Library::from_dir(folder.path()).expect("the mutant is a whole library")
+}
+
 #[test]
 fn every_fault_is_caught() {
     let mut missed = Vec::new();
     for mutant in MUTANTS {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        copy(&root().join("shaders"), folder.path()).expect("the shaders can be copied");
-        let file = folder.path().join(mutant.file);
-        let text = std::fs::read_to_string(&file).expect("the mutant's file is there");
-        assert!(
-            text.contains(mutant.from),
-            "{}: `{}` is not in {}",
-            mutant.what,
-            mutant.from,
-            mutant.file
-        );
-        std::fs::write(&file, text.replace(mutant.from, mutant.to)).expect("the copy can be written");
-        let library = Library::from_dir(folder.path()).expect("the mutant is a whole library");
+        let library = broken(mutant);
         let Some(report) = report(mutant.what, &selection(mutant.filter), &library) else {
             return;
         };
@@ -376,6 +381,29 @@ fn every_fault_is_caught() {
         }
     }
     assert!(missed.is_empty(), "not caught: {missed:?}");
+}
+
+/// Textures of bytes, filtered by a driver, hide what no driver's filter stands before.
+#[test]
+fn an_ideal_filter_shows_a_fault_of_a_hundredth_of_a_per_cent() {
+    let mutant = Mutant {
+        what: "the surface's normal map decoded a hundredth of a per cent too long",
+        file: "entry/surface_fragment.wesl",
+        from: "normal_texel * material.normal_decode.x + material.normal_decode.y;",
+        to: "normal_texel * (1.0001 * material.normal_decode.x) + material.normal_decode.y;",
+        filter: "scene/planned:scene=brick_wall",
+    };
+    let library = broken(&mutant);
+    let fails = |route| {
+        let selection = Selection {
+            routes: vec![route],
+            ..selection(mutant.filter)
+        };
+        let report = report(mutant.what, &selection, &library)?;
+        Some(report.failures().next().is_some())
+    };
+    assert_eq!(fails(Route::Embedded), Some(true));
+    assert_ne!(fails(Route::Wgsl), Some(true), "a driver's filter hides it");
 }
 
 #[test]

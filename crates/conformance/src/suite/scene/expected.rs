@@ -37,7 +37,8 @@ pub(super) enum Points {
 /// A draw by its place among a case's draws, since a name may occur twice.
 pub(super) type Place = (usize, Points);
 
-type Key = (Place, FeatureSet, Stage);
+/// A draw's stage, and whether the filter between texels is ideal.
+type Key = (Place, FeatureSet, Stage, bool);
 
 #[derive(Debug)]
 struct Made {
@@ -62,7 +63,7 @@ impl Expectations {
         stage: Stage,
         points: &[Interpolants],
     ) -> Result<Arc<Vec<Fragment>>, String> {
-        let key = (place, rig.draw().features, stage);
+        let key = (place, rig.draw().features, stage, rig.filters_ideally());
         let text = rig.text(stage)?;
         let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(made) = lock().get(&key)

@@ -16,7 +16,7 @@ use crate::bench::Bench;
 use crate::case::with_causes;
 use crate::module::Module;
 use crate::oracle::stages::{self as oracle, Inputs, Outputs};
-use crate::route::Prepared;
+use crate::route::{Prepared, Route};
 
 /// The entry points of the surface's modules.
 const VERTEX: &str = "surface_vertex";
@@ -30,6 +30,7 @@ pub(super) struct Rig<'a> {
     mesh: Mesh,
     textures: Vec<(String, TextureData)>,
     filter: Filter,
+    ideal_filter: bool,
 }
 
 impl<'a> Rig<'a> {
@@ -50,6 +51,8 @@ impl<'a> Rig<'a> {
             mesh: mesh(draw),
             textures: textures(draw),
             filter: SamplerSettings::default().filter,
+            // No driver's sampler is between the shader and the texels there.
+            ideal_filter: bench.route == Route::Embedded,
         })
     }
 
@@ -61,6 +64,11 @@ impl<'a> Rig<'a> {
     /// What is drawn.
     pub(super) fn draw(&self) -> &'a Draw {
         self.draw
+    }
+
+    /// Whether what runs it filters textures ideally.
+    pub(super) fn filters_ideally(&self) -> bool {
+        self.ideal_filter
     }
 
     /// The assembled text of a fragment module.
@@ -81,6 +89,7 @@ impl<'a> Rig<'a> {
             module: &self.vertex,
             entry: VERTEX,
             resources: &self.resources(&[&self.vertex.shader(VERTEX)?]),
+            ideal_filter: self.ideal_filter,
         };
         stage.vertices(&inputs)
     }
@@ -92,6 +101,7 @@ impl<'a> Rig<'a> {
             module,
             entry: FRAGMENT,
             resources: &self.resources(&[&module.shader(FRAGMENT)?]),
+            ideal_filter: self.ideal_filter,
         };
         stage.fragments(inputs)
     }
