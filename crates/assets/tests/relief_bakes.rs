@@ -250,7 +250,11 @@ fn relaxed_cones_are_wider_where_flanks_rise() {
             let (safe, relaxed) = (cone_map::bake(&field, edge), relaxed_cone_map::bake(&field, edge));
             let pairs = safe.ratios.iter().zip(&relaxed.ratios);
             // Each search lets go a 16th of its own.
-            assert!(pairs.into_iter().all(|(safe, relaxed)| *relaxed >= safe * 16.0 / 17.0));
+            assert!(
+                pairs
+                    .into_iter()
+                    .all(|(safe, relaxed)| *relaxed >= safe * 16.0 / 17.0)
+            );
         }
     }
     // On a slope that only rises nothing comes out again: the cap, away from the cliff at the seam.
