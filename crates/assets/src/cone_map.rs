@@ -9,7 +9,7 @@
 //! these; so at any point the four ratios that are mixed, and their mean, are not above the point's own.
 //!
 //! How: the inverse of a point's ratio is the steepest way up from it, and for all points of a cell this is bounded from above by the
-//! search of `slope_search` over a pyramid of the whole map, which keeps the bake near-linear in texels.
+//! search of `slope_search` over a pyramid of the whole map, which is near-linear in texels on rough maps.
 //! Ratios are at most 1 (a longer side a height of 1) and rounded down. Bounds cost width: a 16th that the search lets go, up to a
 //! factor (d + 2)/d for what stands d texels away, and within two texels of an edge the cone is as steep as the edge.
 

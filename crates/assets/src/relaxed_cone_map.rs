@@ -9,7 +9,7 @@
 //! cut, which makes these cones wider than those of [`cone_map`](crate::cone_map). A narrower cone is right as well, so the same
 //! argument as there keeps filtered ratios right.
 //!
-//! The bounds that make it near-linear are those of `cone_map`; what surely rises away from a cell is passed over as a whole.
+//! The bounds that make it fast are those of `cone_map`; what surely rises away from a cell is passed over as a whole.
 
 use crate::cone_map::ConeMap;
 use crate::slope_search::Rule;

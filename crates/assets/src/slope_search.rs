@@ -7,8 +7,8 @@
 //!   [`Rule::CrossedOnce`] also: how much gradients differ there, since a way that rises to q and falls at q has both.
 //!
 //! The smallest counts; for the cells around C only the second. A pyramid of maxima is searched from the top, the steepest
-//! node first. What cannot exceed the slope that is known already by more than [`SLACK`] is not looked into, its own bound counts: so
-//! a cell looks at some tens to hundreds of nodes, however large the map, and the whole costs little more than linear time.
+//! node first. What cannot exceed the slope that is known already by more than [`SLACK`] is not looked into, its own bound counts.
+//! Rough maps cost the same a texel at every size; smooth ones more the larger they are (`docs/relief.md` has the times).
 //! Slopes below one height a longer side are not told apart.
 //!
 //! [`Rule::CrossedOnce`] leaves out what surely rises away from C: nodes all of whose gradients point away from all of C.
@@ -50,8 +50,8 @@ const SQUARES: [(u32, usize); 11] = [
 ];
 
 /// By how much a bound may exceed the slope of the steepest cell found, as a factor. Without it, smooth maps would cost the number of
-/// their texels to the power of 3/2: so many cells lie within their own size of the steepest. With it, a search looks at nodes up to
-/// 16 times their own width away on each level.
+/// their texels to the power of 3/2: so many cells lie within their own size of the steepest. With it, a search looks into
+/// nodes up to 16 times their own width away on each level.
 const SLACK: f32 = 1.0 + 1.0 / 16.0;
 
 /// What covers the rounding of a slope.
