@@ -38,6 +38,13 @@ impl CaseId {
         self
     }
 
+    /// Whether it is about a formula as printed, faults included.
+    #[must_use]
+    pub fn is_published(&self) -> bool {
+        let function = self.params.get("fn");
+        self.form.as_deref() == Some("published") || function.is_some_and(|name| name.ends_with("_published"))
+    }
+
     /// Whether a filter selects this case: the whole name, or any part of it.
     #[must_use]
     pub fn matches(&self, filter: &str) -> bool {
@@ -73,6 +80,15 @@ mod tests {
             CaseId::new("frame_mikktspace", None, "edge").to_string(),
             "frame_mikktspace/edge"
         );
+    }
+
+    #[test]
+    fn a_published_function_is_known_by_its_form_or_its_name() {
+        let library = CaseId::new("normalise", None, "random");
+        assert!(!library.is_published());
+        assert!(library.with("fn", "normalise_published").is_published());
+        assert!(CaseId::new("dot3", Some("published"), "edge").is_published());
+        assert!(!CaseId::new("dot3", Some("hardened"), "edge").is_published());
     }
 
     #[test]

@@ -39,6 +39,7 @@ mod run;
 pub mod suite;
 pub mod tolerance;
 pub mod ulp;
+pub mod undecided;
 pub mod user;
 mod verdict;
 pub mod width;

@@ -8,19 +8,6 @@
 /// are drawn from the documented domain, where a hardened function leaves nothing open but isolated ties.
 pub const UNDECIDED_LIMIT: f64 = 0.01;
 
-/// The same for codes of up to 16 bits. They are steps, and fork where the interval of what is rounded holds one: a component of a
-/// normalised vector is known to about 25 ULP of 2⁻²⁴, which at 32767.5 codes a unit is 0.05 of a code.
-pub const UNDECIDED_LIMIT_CODES: f64 = 0.05;
-
-/// The largest share of undecided outputs of a function on random inputs.
-#[must_use]
-pub fn undecided_limit(function: &str) -> f64 {
-    match function {
-        "normalisation_cube_map_code" => UNDECIDED_LIMIT_CODES,
-        _ => UNDECIDED_LIMIT,
-    }
-}
-
 /// The same for pixels whose textures the driver filters: an alpha test near its cutoff, or a highlight near its end, is undecided
 /// within the filter's allowance, which is much wider than rounding, so more pixels may be.
 pub const UNDECIDED_LIMIT_FILTERED: f64 = 0.03;

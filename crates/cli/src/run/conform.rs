@@ -226,6 +226,17 @@ pub(crate) fn text(report: &Report) -> String {
         totals.outputs,
         totals.inputs
     );
+    let undecided = report.undecided();
+    if undecided.outputs > 0 {
+        let _ = writeln!(
+            text,
+            "undecided: {:.2} % of the outputs of hardened forms ({} open, {} forked of {})",
+            100.0 * undecided.share(),
+            undecided.open,
+            undecided.forked,
+            undecided.outputs
+        );
+    }
     text
 }
 

@@ -11,7 +11,7 @@ use crate::compare::{Comparison, Expected, Refusal};
 use crate::generate::{Inputs, control, edge, random};
 use crate::route::{Prepared, Route};
 use crate::suite::defect::{Evidence, defects};
-use crate::tolerance::undecided_limit;
+use crate::undecided;
 
 /// The module of a probe, as every route prepares it.
 fn module(probe: &Probe) -> Prepared {
@@ -89,7 +89,7 @@ fn hardened_functions_are_decided_on_random_inputs() {
         let inputs = random::generate(probe, 2000, 0, 3);
         let expected = expected(probe, &program(probe), &inputs).unwrap().concat();
         let unsettled = expected.iter().filter(|e| !e.bound.is_settled()).count();
-        let most = undecided_limit(probe.function()) * expected.len() as f64;
+        let most = undecided::limit(probe.function(), undecided::Inputs::Random) * expected.len() as f64;
         let (id, n) = (probe.id, expected.len());
         assert!(unsettled as f64 <= most, "{id}: {unsettled} of {n} undecided");
     }

@@ -14,6 +14,7 @@ use crate::case_id::CaseId;
 use crate::compare::Worst;
 use crate::environment::Environment;
 use crate::route::Route;
+use crate::suite::accuracy;
 use crate::verdict::Verdict;
 
 /// The version of the report's format.
@@ -144,6 +145,25 @@ impl Totals {
     }
 }
 
+/// How much of what the library itself promises stayed undecided.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Undecided {
+    /// Outputs compared.
+    pub outputs: usize,
+    /// Outputs on which the accuracy rules say nothing.
+    pub open: usize,
+    /// Outputs that join several results.
+    pub forked: usize,
+}
+
+impl Undecided {
+    /// The share of undecided outputs; 0 where there are none.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        (self.open + self.forked) as f64 / self.outputs.max(1) as f64
+    }
+}
+
 /// A whole run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
@@ -165,6 +185,19 @@ impl Report {
     #[must_use]
     pub fn totals(&self) -> Totals {
         Totals::of(&self.cases)
+    }
+
+    /// What stayed undecided of everything but the published forms, which are undefined in places, and the built-in functions, whose
+    /// arguments are drawn from all numbers.
+    #[must_use]
+    pub fn undecided(&self) -> Undecided {
+        let ours = |case: &&CaseResult| !case.id.is_published() && case.id.technique != accuracy::TECHNIQUE;
+        let cases = self.cases.iter().filter(ours);
+        cases.fold(Undecided::default(), |sum, case| Undecided {
+            outputs: sum.outputs + case.outputs,
+            open: sum.open + case.undecided,
+            forked: sum.forked + case.forked,
+        })
     }
 
     /// The failed cases.

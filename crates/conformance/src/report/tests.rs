@@ -65,6 +65,20 @@ pub(crate) fn sample() -> Report {
 }
 
 #[test]
+fn only_what_the_library_promises_counts_as_undecided() {
+    let mut report = sample();
+    assert_eq!(report.undecided().outputs, 0, "published forms promise nothing");
+    report.cases[0].id = CaseId::new("dot3", Some("hardened"), "random");
+    report.cases[1].id = CaseId::new("accuracy", None, "random");
+    let undecided = report.undecided();
+    assert_eq!(
+        (undecided.outputs, undecided.open, undecided.forked),
+        (3000, 3, 0)
+    );
+    assert_eq!(undecided.share(), 0.001);
+}
+
+#[test]
 fn totals_count_each_verdict_once() {
     let totals = sample().totals();
     assert_eq!(totals.cases, 5);

@@ -31,6 +31,8 @@ pub const FULL: usize = 10_000_000;
 const PART: usize = 100_000;
 
 const ENTRY: &str = "accuracy";
+/// What stands for a technique in the names of these cases.
+pub const TECHNIQUE: &str = "accuracy";
 
 /// One function.
 struct AccuracyCase {
@@ -72,7 +74,7 @@ fn {ENTRY}(@builtin(global_invocation_id) id: vec3u) {{
 
 impl AccuracyCase {
     fn new(function: &'static Function, count: usize, seed: u64) -> Self {
-        let id = CaseId::new("accuracy", None, "random")
+        let id = CaseId::new(TECHNIQUE, None, "random")
             .with("fn", function.name)
             .with("n", count)
             .with("seed", seed);

@@ -21,7 +21,8 @@ use crate::dispatch::{Dispatch, Kept, byte_bounds, half_bounds};
 use crate::module::Module;
 use crate::oracle;
 use crate::route::Prepared;
-use crate::tolerance::{UNDECIDED_LIMIT, UNDECIDED_LIMIT_CODES};
+use crate::tolerance::UNDECIDED_LIMIT;
+use crate::undecided::code_share;
 
 /// Texels an edge: the smallest, an odd one, and sizes that are in use.
 const SIZES: [u32; 5] = [1, 2, 7, 16, 64];
@@ -166,7 +167,7 @@ impl CubeMapBake {
     fn undecided_limit(&self) -> f64 {
         match self.depth {
             Depth::Eight => UNDECIDED_LIMIT,
-            Depth::Sixteen => UNDECIDED_LIMIT_CODES,
+            Depth::Sixteen => code_share(65_535.0),
         }
     }
 

@@ -13,7 +13,7 @@ use crate::generate::{Inputs, control, edge, random, spaced};
 use crate::module::Module;
 use crate::oracle;
 use crate::route::Prepared;
-use crate::tolerance::undecided_limit;
+use crate::undecided;
 use crate::verdict::Verdict;
 use crate::width::{self, golden};
 
@@ -221,13 +221,15 @@ impl ProbeCase {
         }
     }
 
-    /// Only random cases of hardened functions stay inside the documented domain; spaced inputs lie on its borders, among them
-    /// vectors that are exactly parallel.
+    /// Edge inputs lie on the borders of the domain on purpose, and published forms are undefined in places: these are counted and not
+    /// limited.
     fn undecided_limit(&self) -> f64 {
+        let limit = |inputs| undecided::limit(self.probe.function(), inputs);
         match (self.generator, self.probe.form) {
-            (Generator::Random { .. }, Form::Hardened) => undecided_limit(self.probe.function()),
-            (Generator::Random { .. }, Form::Published)
-            | (Generator::Control | Generator::Edge | Generator::Spaced { .. }, _) => 1.0,
+            (Generator::Random { .. }, Form::Hardened) => limit(undecided::Inputs::Random),
+            (Generator::Spaced { .. }, Form::Hardened) => limit(undecided::Inputs::Spaced),
+            (Generator::Random { .. } | Generator::Spaced { .. }, Form::Published)
+            | (Generator::Control | Generator::Edge, _) => 1.0,
         }
     }
 }

@@ -28,6 +28,8 @@ pub struct Row {
     pub medians: Vec<f64>,
     /// 90th percentiles.
     pub p90: Vec<f64>,
+    /// Median widths at scale, which are shown and not held.
+    pub at_scale: Vec<f64>,
 }
 
 /// The head of the table.
@@ -85,6 +87,7 @@ fn find(table: &str, probe: &Probe, field: &str) -> Option<Row> {
         named.then(|| Row {
             medians: read(cells.next()),
             p90: read(cells.next()),
+            at_scale: read(cells.nth(1)),
         })
     })
 }
@@ -153,6 +156,7 @@ mod tests {
         let row = find(&written, probe, "unit").unwrap();
         assert_eq!(row.medians, [1.0, 2.0, f64::INFINITY]);
         assert_eq!(row.p90, [4.0, 5.0, f64::INFINITY]);
+        assert_eq!(row.at_scale, [1.0, 2.0, f64::INFINITY]);
         assert_eq!(find(&written, Probe::find("lambert").unwrap(), "unit"), None);
     }
 
