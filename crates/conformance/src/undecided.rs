@@ -88,9 +88,9 @@ mod tests {
 
     #[test]
     fn the_corners_of_the_square_are_a_quarter() {
-        let n = 504;
+        let n = 504i32;
         let places = (0..=n).flat_map(|a| (0..=n).map(move |b| (a, b)));
-        let outside = places.filter(|&(a, b)| (a + b - n as i32).abs() > n as i32 / 2);
+        let outside = places.filter(|&(a, b)| (a + b - n).abs() > n / 2);
         let share = outside.count() as f64 / f64::from((n + 1) * (n + 1));
         assert!((share - PRODUCT_OUT_OF_RANGE).abs() < 0.01, "{share}");
     }
