@@ -56,6 +56,7 @@
 //!
 //! - Sums and products are reassociated within one function and one straight line of code, up to sixteen terms and four factors.
 //!   Quotients stay as written, and nothing is multiplied out or factored.
+//! - An error in units of the last place does not change the sign of a result.
 //! - An exactly zero quotient or root is zero; `atan2(0, x)` for `x > 0` is as accurate as beside it.
 //! - `determinant` and derivatives, for which WGSL states no accuracy, have the accuracy of their formulas.
 //! - `f64`, which WGSL does not have, has the `f32` entries of the table in its own units.
@@ -63,6 +64,7 @@
 //!   normalised texels may work in their precision: a step of 1/255 along each axis, or two of 1/65535.
 //! - Subgroups have 4 to 128 invocations and any members: in an interval domain votes, least and greatest values, broadcasts and
 //!   shuffles hold for all of them, and sums, scans and ballots are undecided.
+//! - A store to a texture may round to either neighbour in its format, as Vulkan has it; a perfect machine takes the nearest.
 //! - A write out of bounds is dropped; it is counted in [`Counters::out_of_bounds`].
 //! - Invocations of one workgroup run in lockstep and atomics in the order of invocations: races are resolved one lawful way.
 //!

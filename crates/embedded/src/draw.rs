@@ -15,7 +15,7 @@ use crate::triangle::Triangle;
 use crate::vertex::Vertices;
 
 /// Quads that are shaded at a time, to bound memory.
-const QUADS_A_RUN: usize = 1 << 14;
+const QUADS_A_RUN: usize = 1 << 12;
 
 /// Draws one mesh.
 pub(crate) fn run(

@@ -1,15 +1,13 @@
 //! The fragment stage over quads: inputs interpolated at each pixel's centre, helper invocations included.
 
-use bossage_bounds::{
-    Bindings, Column, F32, Limits, Scalar, Slot, StageInputs, StageOutputs, Truth, run_fragment,
-};
+use bossage_bounds::{Bindings, F32, Limits, Scalar, Slot, StageInputs, StageOutputs, Truth, run_fragment};
 use bossage_runner::{Draw, Error};
 use bossage_translate::manifest::{Kind, Varying};
 use rayon::prelude::*;
 
 use crate::failure::{misfit, of_job, unsupported};
 use crate::triangle::{Triangle, Weights};
-use crate::vertex::Vertices;
+use crate::vertex::{Values, Vertices};
 
 /// Four pixels of one triangle: (0,0), (1,0), (0,1), (1,1) from the upper left one.
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +45,7 @@ enum Input<'a> {
     Location {
         location: u32,
         interpolation: Interpolation,
-        values: &'a Column<F32>,
+        values: &'a Values,
     },
     Position,
     FrontFacing,
@@ -176,7 +174,7 @@ fn input<'a>(
 impl Input<'_> {
     fn slot(&self) -> (Slot, usize) {
         match self {
-            Self::Location { location, values, .. } => (Slot::Location(*location, 0), values.components),
+            Self::Location { location, values, .. } => (Slot::Location(*location, 0), values.components()),
             Self::Position => (Slot::Position, 4),
             Self::FrontFacing => (Slot::FrontFacing, 1),
             Self::PrimitiveIndex => (Slot::PrimitiveIndex, 1),
@@ -197,7 +195,7 @@ impl Input<'_> {
                 values,
                 ..
             } => {
-                let corner = |corner: u32| values.of(corner as usize)[component];
+                let corner = |corner: u32| values.at(corner as usize, component);
                 let mixed = |weights: [f64; 3]| {
                     let floats = triangle.corners.map(|c| corner(c).float().unwrap_or(f64::NAN));
                     Scalar::Float(Weights::mix(weights, floats))

@@ -284,11 +284,10 @@ pub(crate) fn atan2<const A: bool>(w: Width, y: Interval, x: Interval) -> Interv
     let least = w.min_normal();
     let near_zero = |v: Interval| v.lo < least && v.hi > -least;
     if near_zero(x) || magnitude(x).hi > exp2i(w.quotient_exponent()) || (near_zero(y) && x.lo < 0.0) {
-        let whole = Interval::new(-PI, PI);
         return if A {
             Interval::unknown(Flags::INDETERMINATE)
         } else {
-            outward::<A>(w, whole.lo, whole.hi).flagged(flags)
+            within_ulps::<A>(w, -PI, PI, atan_ulps(w)).flagged(flags)
         };
     }
     let corners = [(y.lo, x.lo), (y.lo, x.hi), (y.hi, x.lo), (y.hi, x.hi)].map(|(y, x)| y.atan2(x));

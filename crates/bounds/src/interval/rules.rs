@@ -4,8 +4,9 @@
 //! WGSL does not have, the `f32` entries are used in units of `f64` (the SPIR-V environment promises double precision at least
 //! the accuracy of single).
 //!
-//! Two readings of ours, both documented in the crate's front page: an exactly zero quotient or root is zero, without the
-//! subnormal error that "2.5 ULP of 0" would allow; and `atan2(y, x)` for `y = 0`, which the table leaves out, is bounded by its
+//! Three readings of ours, documented in the crate's front page: an exactly zero quotient or root is zero, without the
+//! subnormal error that "2.5 ULP of 0" would allow; an error in units does not change the sign of a result, which it could do below
+//! the normal numbers alone; and `atan2(y, x)` for `y = 0`, which the table leaves out, is bounded by its
 //! neighbours where the function is continuous (`x > 0`).
 
 use super::{Flags, Interval};
@@ -84,7 +85,8 @@ pub(crate) fn within_ulps_of<const ABSORB: bool>(w: Width, x: f64, ulps: f64) ->
 
 /// The least of `v − ulps·ulp(v)` over `v` in `[lo, hi]`.
 ///
-/// The unit doubles at every power of two, so for positive numbers the minimum may lie just above the next power, not at `lo`.
+/// The unit doubles above every power of two, which itself has the lesser one: for positive numbers the minimum may lie just above
+/// the next power, or just above `lo` where that is one.
 fn lower_by_ulps(w: Width, lo: f64, hi: f64, ulps: f64) -> f64 {
     if lo == 0.0 {
         return 0.0;
@@ -93,12 +95,14 @@ fn lower_by_ulps(w: Width, lo: f64, hi: f64, ulps: f64) -> f64 {
     if lo < 0.0 || !lo.is_finite() {
         return at_lo;
     }
-    let power = exp2i(exponent_of(lo) + 1);
-    if power >= hi {
+    let own = exp2i(exponent_of(lo));
+    let power = if lo == own { own } else { 2.0 * own };
+    let least = if power >= hi {
         at_lo
     } else {
         at_lo.min(power - ulps * 2.0 * w.ulp(power))
-    }
+    };
+    least.max(0.0)
 }
 
 /// All values within an absolute error of a real number in `[lo, hi]`, rounded outward.

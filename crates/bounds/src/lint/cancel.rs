@@ -39,7 +39,7 @@ const CHUNK: usize = 64;
 impl Search<'_> {
     /// Looks for cancellation at that many points, or until the time is up.
     pub(super) fn cancellation(&mut self, points: usize, until: Instant) {
-        let scale = self.usual();
+        let scale = self.usual(until);
         if scale.is_empty() {
             return;
         }
@@ -48,6 +48,7 @@ impl Search<'_> {
             let numbers: Vec<u64> = (at..(at + CHUNK).min(points)).map(|n| n as u64).collect();
             let shown: Vec<Option<(u32, Point, Event)>> = numbers
                 .into_par_iter()
+                .filter(|_| Instant::now() < until)
                 .map(|n| {
                     let point = self.point(n);
                     let (span, event) = self.loses(&point, &scale)?;
@@ -66,8 +67,9 @@ impl Search<'_> {
     }
 
     /// The magnitude that each output stays below at nine of ten random points.
-    fn usual(&self) -> Vec<f64> {
+    fn usual(&self, until: Instant) -> Vec<f64> {
         let runs = (0..USUAL as u64)
+            .filter(|_| Instant::now() < until)
             .map(|n| search::run::<F32>(self.program, self.inputs, &self.point(4 * n + 3), self.seed));
         let outputs: Vec<Vec<f64>> = runs
             .filter_map(|run| run.ok().map(|run| run.outputs))

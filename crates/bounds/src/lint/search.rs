@@ -24,8 +24,11 @@ use std::time::Instant;
 /// Operations an invocation may execute before a loop counts as endless.
 pub(super) const OPERATIONS: u64 = 1 << 20;
 
-/// Points between two looks at the clock.
+/// Points whose results are kept together.
 const CHUNK: usize = 128;
+
+/// Points that are tried however little time there is. One that runs into an endless loop takes as long as thousands of others.
+pub(super) const ALWAYS: u64 = 4;
 
 /// Points among which signs of operands are compared.
 const SAMPLED: u64 = 512;
@@ -183,6 +186,7 @@ impl<'p> Search<'p> {
             let numbers: Vec<u64> = (at..(at + CHUNK).min(points)).map(|n| n as u64).collect();
             let shown: Vec<(Point, BTreeMap<Site, Option<Event>>)> = numbers
                 .into_par_iter()
+                .filter(|n| *n < ALWAYS || Instant::now() < until)
                 .map(|n| {
                     let point = self.point(n);
                     let shown = self.shows(&point);
@@ -211,6 +215,7 @@ impl<'p> Search<'p> {
     pub(super) fn close_in(&mut self, sites: &BTreeSet<Site>, until: Instant) {
         let samples: Vec<(Point, BTreeMap<u32, f64>)> = (0..SAMPLED)
             .into_par_iter()
+            .filter(|_| Instant::now() < until)
             .filter_map(|n| {
                 let point = self.point(n);
                 let run = run::<F32>(self.program, self.inputs, &point, self.seed).ok()?;
@@ -225,14 +230,17 @@ impl<'p> Search<'p> {
                 if self.found.contains_key(site) || Instant::now() > until {
                     break;
                 }
-                self.bisect(*site, &a.0, &b.0);
+                self.bisect(*site, &a.0, &b.0, until);
             }
         }
     }
 
-    fn bisect(&mut self, site: Site, above: &Point, below: &Point) {
+    fn bisect(&mut self, site: Site, above: &Point, below: &Point, until: Instant) {
         let (mut above, mut below) = (above.clone(), below.clone());
         for _ in 0..BISECTIONS {
+            if Instant::now() > until {
+                return;
+            }
             let Some(middle) = self.inputs.between_points(&above, &below) else {
                 return;
             };

@@ -5,7 +5,7 @@ use bossage_bounds::{Accept, Bindings, F32, Interval, Limits, Range, Scalar, Wid
 use proptest::prelude::*;
 
 /// Endpoints two times in three, random bits otherwise.
-fn hard_float() -> impl Strategy<Value = f32> {
+pub(crate) fn hard_float() -> impl Strategy<Value = f32> {
     let edges = vec![
         0.0,
         -0.0,
@@ -32,7 +32,7 @@ fn hard_float() -> impl Strategy<Value = f32> {
 }
 
 /// Expressions in `x` and `y` with every rule of the table.
-const EXPRESSIONS: &[&str] = &[
+pub(crate) const EXPRESSIONS: &[&str] = &[
     "x + y",
     "x - y",
     "x * y",

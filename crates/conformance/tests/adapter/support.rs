@@ -19,6 +19,18 @@ pub(crate) fn report(test: &str, selection: &Selection, library: &Library) -> Op
                 assert!(!is_required(needs), "{needs} is required, but: {left_out:?}");
                 skip(test, &format!("route {}: {}", left_out.route, left_out.reason));
             }
+            let seen = |name: &str| {
+                report
+                    .environment
+                    .adapters
+                    .iter()
+                    .any(|adapter| adapter.name.contains(name))
+            };
+            assert!(
+                !is_required("swiftshader") || seen("SwiftShader"),
+                "swiftshader is required, but only these are here: {:?}",
+                report.environment.adapters
+            );
             Some(report)
         }
         Err(error) if error.is_missing_environment() => {

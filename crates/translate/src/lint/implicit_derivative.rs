@@ -11,7 +11,7 @@
 //! as not uniform (varyings, writable memory, values behind pointer arguments), which is also the language's view.
 //! `discard` leaves helper invocations running and does not count as divergence.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use naga::{
     AddressSpace, Block, BuiltIn, Expression, Function, Handle, LocalVariable, Module, Range, SampleLevel,
@@ -47,11 +47,19 @@ fn spans(unit: &Unit) -> Vec<Span> {
         .iter()
         .map(|argument| matches!(argument.binding, Some(naga::Binding::BuiltIn(builtin)) if is_uniform(builtin)))
         .collect();
-    let mut found = Vec::new();
+    let mut found = Found::default();
     Flow::new(&unit.module, function, arguments).run(false, &mut found);
+    let mut found = found.places;
     found.sort_by_key(|span| span.to_range().map(|range| (range.start, range.end)));
     found.dedup();
     found
+}
+
+/// Offending places, and what is known of calls: function, which arguments are uniform, whether control flow has diverged.
+#[derive(Default)]
+struct Found {
+    places: Vec<Span>,
+    calls: HashMap<(Handle<Function>, Vec<bool>, bool), bool>,
 }
 
 const fn is_uniform(builtin: BuiltIn) -> bool {
@@ -114,7 +122,7 @@ impl<'a> Flow<'a> {
     }
 
     /// Adds the offending places; says whether the returned value may differ between invocations.
-    fn run(mut self, diverged: bool, found: &mut Vec<Span>) -> bool {
+    fn run(mut self, diverged: bool, found: &mut Found) -> bool {
         // Sets only grow, so this ends; what is found before they are complete is also found after.
         loop {
             let known = (self.varying.len(), self.varying_results.len());
@@ -125,7 +133,7 @@ impl<'a> Flow<'a> {
         }
     }
 
-    fn block(&mut self, block: &Block, diverged: bool, found: &mut Vec<Span>) -> Diverged {
+    fn block(&mut self, block: &Block, diverged: bool, found: &mut Found) -> Diverged {
         let mut out = Diverged::default();
         for statement in block {
             let after = self.statement(statement, diverged || out.any(), found);
@@ -134,7 +142,7 @@ impl<'a> Flow<'a> {
         out
     }
 
-    fn statement(&mut self, statement: &Statement, diverged: bool, found: &mut Vec<Span>) -> Diverged {
+    fn statement(&mut self, statement: &Statement, diverged: bool, found: &mut Found) -> Diverged {
         let mut out = Diverged::default();
         match statement {
             Statement::Emit(range) => self.emit(range.clone(), diverged, found),
@@ -179,11 +187,11 @@ impl<'a> Flow<'a> {
     }
 
     /// Computes the expressions of a range, each of which comes after its operands.
-    fn emit(&mut self, range: Range<Expression>, diverged: bool, found: &mut Vec<Span>) {
+    fn emit(&mut self, range: Range<Expression>, diverged: bool, found: &mut Found) {
         for handle in range {
             self.values[handle.index()] = self.compute(handle);
             if diverged && self.takes_derivative(handle) {
-                found.push(self.function.expressions.get_span(handle));
+                found.places.push(self.function.expressions.get_span(handle));
             }
         }
     }
@@ -196,9 +204,9 @@ impl<'a> Flow<'a> {
         continuing: &Block,
         break_if: Option<Handle<Expression>>,
         diverged: bool,
-        found: &mut Vec<Span>,
+        found: &mut Found,
     ) -> bool {
-        let once = |flow: &mut Self, diverged: bool, found: &mut Vec<Span>| {
+        let once = |flow: &mut Self, diverged: bool, found: &mut Found| {
             let first = flow.block(body, diverged, found);
             let then = flow.block(continuing, diverged || first.any(), found);
             let mut out = first.or(then);
@@ -226,7 +234,7 @@ impl<'a> Flow<'a> {
         arguments: &[Handle<Expression>],
         result: Option<Handle<Expression>>,
         diverged: bool,
-        found: &mut Vec<Span>,
+        found: &mut Found,
     ) {
         let uniform = arguments.iter().map(|argument| self.uniform(*argument)).collect();
         // What is behind a pointer may be written by the callee.
@@ -235,12 +243,30 @@ impl<'a> Flow<'a> {
             .filter_map(|argument| self.local(*argument))
             .collect();
         self.varying.extend(pointed);
-        let callee = Flow::new(self.module, &self.module.functions[function], uniform);
-        if callee.run(diverged, found)
+        if self.callee_varies(function, uniform, diverged, found)
             && let Some(result) = result
         {
             self.varying_results.insert(result);
         }
+    }
+
+    /// Whether a call's result may differ between invocations. A call is analysed once for each way to make it: chains of calls
+    /// would otherwise take time exponential in their length.
+    fn callee_varies(
+        &self,
+        function: Handle<Function>,
+        uniform: Vec<bool>,
+        diverged: bool,
+        found: &mut Found,
+    ) -> bool {
+        let way = (function, uniform.clone(), diverged);
+        if let Some(&varies) = found.calls.get(&way) {
+            return varies;
+        }
+        let callee = Flow::new(self.module, &self.module.functions[function], uniform);
+        let varies = callee.run(diverged, found);
+        found.calls.insert(way, varies);
+        varies
     }
 
     /// The local variable that a pointer leads to.
@@ -455,6 +481,20 @@ mod tests {
         ] {
             assert!(in_main(body).is_empty(), "{body}");
         }
+    }
+
+    #[test]
+    fn a_long_chain_of_calls_takes_no_time() {
+        let mut source = String::from("fn g0(x: f32) -> f32 { return dpdx(x); }\n");
+        for k in 1..200 {
+            source += &format!(
+                "fn g{k}(x: f32) -> f32 {{ return g{}(x) + g{}(x * 2.0); }}\n",
+                k - 1,
+                k - 1
+            );
+        }
+        source += "@fragment fn main(@location(0) x: f32) -> @location(0) vec4f { if x > 0.0 { return vec4f(g199(x)); } return vec4f(); }";
+        assert_eq!(lines("implicit_derivative", &source), [1]);
     }
 
     #[test]
