@@ -15,7 +15,7 @@ use glam::{DMat4, DVec2, DVec4};
 
 use super::interpolants::Interpolants;
 use super::rig::{Rig, job, render};
-use super::vertices::{SUBPIXEL_BITS, Sheet, Vertices};
+use super::vertices::{Sheet, Vertices, subpixel_bits};
 use crate::bench::Bench;
 use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
@@ -196,7 +196,7 @@ fn grid(bench: &Bench<'_>, draw: &Draw) -> Result<(Comparison, usize, String), S
     let mut comparison = Comparison::demanding_answers();
     vertices.agree(&mut comparison);
     let captured = rig.floats(bench, Stage::FragmentCapture, [ABOVE; 2], Interpolants::TARGETS)?;
-    let seen = Sheet::new(draw, &vertices, [ABOVE; 2]).judge(&captured, &mut comparison);
+    let seen = Sheet::new(draw, &vertices, [ABOVE; 2], bench.device.info()).judge(&captured, &mut comparison);
     let note = format!(
         "{} vertices in {seen} pixels; {}",
         vertices.truths.len(),
@@ -231,7 +231,7 @@ fn silhouette(bench: &Bench<'_>, draw: &Draw) -> Result<(Comparison, usize, Stri
             return Err(format!("column {column} is empty"));
         };
         // The outermost covered centre lies within a pixel inside of the outermost vertex.
-        let slack = pixel * 2f64.powi(-SUBPIXEL_BITS);
+        let slack = pixel * 2f64.powi(-subpixel_bits(bench.device.info()));
         let got = [elevation(*top), elevation(*bottom)].map(|z| z as f32);
         let expected = [(highest, -pixel, 0.0), (lowest, 0.0, pixel)].map(|(edge, below, above)| Expected {
             truth: edge.truth + 0.5 * (below + above),

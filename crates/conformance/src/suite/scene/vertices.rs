@@ -5,7 +5,7 @@
 //! fragment stage writes its interpolated inputs, and each of them must lie between the corners' intervals, weighted as the pixel's
 //! centre lies between the true corners. Where no triangle is, nothing may be drawn; where one is, something must be.
 //!
-//! A rasteriser keeps `SUBPIXEL_BITS` bits of a corner's place, so what is interpolated may be taken that share of a pixel beside the centre;
+//! A rasteriser keeps some bits ([`subpixel_bits`]) of a corner's place, so what is interpolated may be taken that share of a pixel beside the centre;
 //! and it interpolates in f32, by plane equations whose largest term is the value at the picture's corner. Pixels whose centre lies within
 //! that share of a pixel of a triangle's edge are left out.
 
@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 use bossage_bounds::Slot;
 use bossage_reference::displacement::{self, Tile};
-use bossage_runner::Picture;
+use bossage_runner::{AdapterInfo, AdapterSelector, Picture};
 use bossage_scene::Draw;
 use bossage_shaders::{FeatureSet, LightingSpace, Stage, Transform, VertexKey};
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
@@ -31,12 +31,21 @@ use crate::module::Module;
 use crate::oracle::stages::Outputs;
 use crate::tolerance::UNDECIDED_LIMIT;
 
-/// Bits of a vertex' place in pixels that every rasteriser here keeps (Vulkan's `subPixelPrecisionBits`).
-pub(super) const SUBPIXEL_BITS: i32 = 8;
+/// Bits of a vertex' place in pixels that an adapter keeps, Vulkan's `subPixelPrecisionBits`: 4 on SwiftShader, the fewest that are
+/// lawful, and 8 on every other rasteriser here.
+pub(super) fn subpixel_bits(info: &AdapterInfo) -> i32 {
+    if AdapterSelector::named("swiftshader").matches(info) {
+        4
+    } else {
+        8
+    }
+}
 
 /// How far beside a pixel's centre an interpolant may be taken, in pixels: a corner's place rounded, and what a place in clip space may be
 /// off in f32, which is less by far.
-const BESIDE: f64 = 1.125 / (1 << SUBPIXEL_BITS) as f64;
+fn beside(info: &AdapterInfo) -> f64 {
+    1.125 * 2f64.powi(-subpixel_bits(info))
+}
 
 /// Roundings of 2⁻²⁴ of the largest term that an interpolation may take: a plane's two gradients of differences and products over an area
 /// (7 each), two products and two sums, the same for 1/w, and a division.
@@ -319,10 +328,12 @@ pub(super) struct Sheet<'a> {
     /// The triangles near each pixel.
     near: Vec<Vec<usize>>,
     size: [u32; 2],
+    /// What [`beside`] says of the adapter.
+    beside: f64,
 }
 
 impl<'a> Sheet<'a> {
-    pub(super) fn new(draw: &Draw, vertices: &'a Vertices, size: [u32; 2]) -> Self {
+    pub(super) fn new(draw: &Draw, vertices: &'a Vertices, size: [u32; 2], info: &AdapterInfo) -> Self {
         let corners = draw.mesh.indices.as_chunks::<3>().0;
         let triangle =
             |corners: &[u32; 3]| Triangle::new(&vertices.truths, corners.map(|i| i as usize), size);
@@ -339,6 +350,7 @@ impl<'a> Sheet<'a> {
             triangles,
             near,
             size,
+            beside: beside(info),
         }
     }
 
@@ -351,7 +363,7 @@ impl<'a> Sheet<'a> {
             let centre = DVec2::new(f64::from(place[0]), f64::from(place[1])) + 0.5;
             let near = || self.near[at].iter().map(|number| &self.triangles[*number]);
             let depths = || near().map(|triangle| (triangle, triangle.depth_inside(centre)));
-            if depths().any(|(_, depth)| depth.abs() < BESIDE) {
+            if depths().any(|(_, depth)| depth.abs() < self.beside) {
                 continue;
             }
             let inside = depths().find(|(_, depth)| *depth > 0.0);
@@ -379,7 +391,7 @@ impl<'a> Sheet<'a> {
     /// What the interpolants should be at a point of a triangle.
     fn expected(&self, triangle: &Triangle, centre: DVec2) -> [Option<Expected>; COMPONENTS] {
         let square = [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)];
-        let around = square.map(|(x, y)| triangle.weights(centre + BESIDE * DVec2::new(x, y)));
+        let around = square.map(|(x, y)| triangle.weights(centre + self.beside * DVec2::new(x, y)));
         let here = triangle.weights(centre);
         // One pixel to the right and one down, for the plane's gradients.
         let beside = [DVec2::X, DVec2::Y].map(|step| triangle.weights(centre + step));
@@ -445,7 +457,8 @@ impl VertexCase {
             let vertices = Vertices::new(&rig)?;
             vertices.agree(&mut comparison);
             let captured = rig.floats(bench, Stage::FragmentCapture, SIZE, Interpolants::TARGETS)?;
-            inputs += Sheet::new(&draw, &vertices, SIZE).judge(&captured, &mut comparison);
+            inputs +=
+                Sheet::new(&draw, &vertices, SIZE, bench.device.info()).judge(&captured, &mut comparison);
         }
         Ok(Outcome::of(inputs, comparison, UNDECIDED_LIMIT))
     }
