@@ -11,7 +11,8 @@
 //!
 //! A fifth, what it costs, comes with each of them: [`Limits::count`] counts operations and fetches by source span.
 //!
-//! On top of them: [`ranges`], what inputs may be; [`lint`], what can go wrong with them.
+//! On top of them: [`ranges`], what inputs may be; [`lint`], what can go wrong with them; [`attribution`](fn@attribution), which lines a bound comes
+//! from.
 //!
 //! ```
 //! use bossage_bounds::{Accept, F32, Limits, Program, run_probe};
@@ -74,6 +75,7 @@
 //! matrices, binding arrays of buffers, and programs whose inlined size exceeds four million scalar instructions. External textures are treated as plain ones.
 #![forbid(unsafe_code)]
 
+mod attribution;
 mod bindings;
 mod compile;
 mod domain;
@@ -90,6 +92,7 @@ mod stage;
 mod texture;
 mod width;
 
+pub use attribution::{Attribution, Contribution, attribution};
 pub use bindings::{Bindings, BufferData, Scalar, range_scalar};
 pub use compile::program::Program;
 pub use domain::point::{F32, F64};

@@ -18,6 +18,8 @@ pub struct Limits {
     pub count: bool,
     /// Whether to watch for operations that go wrong, which [`crate::lint`] asks for.
     pub watch: bool,
+    /// A place in the source, in bytes: operations that begin there are taken for exact, which [`crate::attribution`] asks for.
+    pub exact: Option<std::ops::Range<usize>>,
 }
 
 impl Default for Limits {
@@ -30,6 +32,7 @@ impl Default for Limits {
             memory: 1 << 30,
             count: false,
             watch: false,
+            exact: None,
         }
     }
 }

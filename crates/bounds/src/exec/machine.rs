@@ -81,6 +81,8 @@ pub(crate) struct Machine<'a, D: Domain> {
     /// Functions being executed, outermost first.
     pub(crate) frames: Vec<usize>,
     pub(crate) depth: u32,
+    /// By span number: whether operations there are taken for exact. Empty where none are.
+    pub(crate) exact: Vec<bool>,
 }
 
 impl<'a, D: Domain> Machine<'a, D> {
@@ -100,6 +102,7 @@ impl<'a, D: Domain> Machine<'a, D> {
             work: 0,
             frames: Vec::new(),
             depth: 0,
+            exact: exact_spans(context),
         };
         if context.limits.count {
             machine.counters.by_span = vec![[0; 2]; code.spans.len()];
@@ -164,6 +167,14 @@ impl<'a, D: Domain> Machine<'a, D> {
         self.stride = stride;
         self.fill_constants();
     }
+}
+
+fn exact_spans<D: Domain>(context: &Context<'_, D>) -> Vec<bool> {
+    let Some(place) = &context.limits.exact else {
+        return Vec::new();
+    };
+    let begins_there = |span: &naga::Span| span.to_range().is_some_and(|range| place.contains(&range.start));
+    context.program.code.spans.iter().map(begins_there).collect()
 }
 
 pub(crate) fn constant_cell<D: Domain>(constant: Constant) -> D::Cell {

@@ -13,6 +13,7 @@
 //! memory, `places` resolves pointers, `packing`, `atomics`, `quads`, `images` hold the instructions of those names.
 
 pub(crate) mod atomics;
+pub(crate) mod exact;
 pub(crate) mod flow;
 pub(crate) mod images;
 pub(crate) mod lanes;

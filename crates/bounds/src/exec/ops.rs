@@ -90,6 +90,9 @@ impl<'a, D: Domain> Machine<'a, D> {
             Op::ImageQuery(query) => self.image_query(query, active),
             Op::Subgroup(subgroup) => self.subgroup(subgroup, active),
         }
+        if self.is_exact(instr) {
+            self.make_exact(instr, active);
+        }
         if self.context.limits.watch {
             self.observe(instr, active);
         }

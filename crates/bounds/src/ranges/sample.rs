@@ -198,6 +198,41 @@ impl Inputs {
         [point.clone(), x, y, diagonal]
     }
 
+    /// Brings a point into its ranges: what lies outside becomes the nearest that lies within, a vector of length one is normalised.
+    pub fn mend(&self, point: &mut Point) {
+        for group in &self.groups {
+            let kinds: Vec<Kind> = group.scalars.clone().map(|k| self.scalars[k].kind).collect();
+            let values = &mut point.values[group.scalars.clone()];
+            if group.admits(values)
+                && values
+                    .iter()
+                    .zip(&kinds)
+                    .all(|(x, kind)| fitted(*kind, *x, *x, *x) == *x)
+            {
+                continue;
+            }
+            match &group.values {
+                Values::Unit => {
+                    let unit = normalised(values);
+                    values.copy_from_slice(&unit);
+                }
+                Values::Between(bounds) => {
+                    for ((x, (lo, hi)), kind) in values.iter_mut().zip(bounds).zip(kinds) {
+                        *x = fitted(kind, if x.is_nan() { *lo } else { *x }, *lo, *hi);
+                    }
+                }
+                Values::OneOf(list) => {
+                    for x in values {
+                        let nearest = list
+                            .iter()
+                            .min_by(|a, b| (*a - *x).abs().total_cmp(&(*b - *x).abs()));
+                        *x = nearest.copied().unwrap_or(*x);
+                    }
+                }
+            }
+        }
+    }
+
     /// Whether a point lies in the declared and inferred ranges.
     pub fn admits(&self, point: &Point) -> bool {
         self.groups

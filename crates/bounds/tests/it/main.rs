@@ -2,6 +2,7 @@
 
 mod accept;
 mod arithmetic;
+mod attribution;
 mod common;
 mod corpus;
 mod coverage;
