@@ -245,3 +245,81 @@ fn what_is_wrong_with_the_call_exits_with_2() {
     let run = conform(&folder, "silent.wgsl", &[]).exits(1);
     assert!(run.stdout.contains("it writes no buffer"), "{}", run.stdout);
 }
+
+#[test]
+fn a_page_shows_where_a_bound_comes_from() {
+    let folder = folder(&[("sum.wgsl", SUM)]);
+    let (page, json) = (folder.path().join("a.html"), folder.path().join("a.json"));
+    let more = [
+        "--inputs",
+        "4",
+        "--route",
+        "embedded",
+        "--attribute",
+        "result[3]",
+        "--html",
+        text(&page),
+        "--json",
+        text(&json),
+    ];
+    conform(&folder, "sum.wgsl", &more).exits(0);
+    let page = fs::read_to_string(page).unwrap();
+    assert!(page.contains("Where the error bound comes from") && page.contains("result[3]"));
+    let report = parsed(&fs::read_to_string(json).unwrap());
+    let lines = report["heats"][0]["lines"].as_array().unwrap();
+    // The only line that rounds is the only one that contributes.
+    let shares: Vec<f64> = lines.iter().filter_map(|line| line["share"].as_f64()).collect();
+    assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-6, "{lines:?}");
+    conform(&folder, "sum.wgsl", &["--attribute", "result[99]"])
+        .exits(2)
+        .says(&["result[99]", "result[0]"]);
+    bossage(&["conform", "normalise/", "--attribute", "x"])
+        .exits(2)
+        .says(&["numbers"]);
+    bossage(&["conform", "--seed", "2"]).exits(2).says(&["--hunt"]);
+}
+
+#[test]
+fn a_hunt_finds_a_planted_defect_and_keeps_what_the_library_has() {
+    let planted = "
+        @group(0) @binding(0) var<storage, read> source: array<f32>;
+        @group(0) @binding(1) var<storage, read_write> result: array<f32>;
+        @compute @workgroup_size(4) fn main(@builtin(local_invocation_index) i: u32) {
+            result[i] = source[i] * source[i] - 2.345;
+        }";
+    let ranges = "schema = 1\n[ranges]\nsource = { size = 4, lo = 1, hi = 2 }\n";
+    let folder = folder(&[("planted.wgsl", planted), ("planted.ranges.toml", ranges)]);
+    let hunt = ["--hunt", "--time", "3", "--threshold", "1000", "--json", "-"];
+    let report = parsed(&conform(&folder, "planted.wgsl", &hunt).exits(0).stdout);
+    let findings = report["findings"].as_array().unwrap();
+    assert!(findings.iter().any(|one| one["goal"] == "error"), "{report}");
+    let corpus = folder.path().join("corpus");
+    fs::create_dir(&corpus).unwrap();
+    let library = [
+        "conform",
+        "--hunt",
+        "normalise/corpus",
+        "--time",
+        "2",
+        "--threshold",
+        "0.4",
+        "--corpus",
+    ];
+    bossage(&[library.as_slice(), &[text(&corpus)]].concat()).exits(0);
+    let kept = fs::read_to_string(corpus.join("normalise.toml")).unwrap();
+    assert!(
+        kept.contains("probe = \"normalise\"") && kept.contains("0x"),
+        "{kept}"
+    );
+    // What is there and wrong is never overwritten.
+    fs::write(
+        corpus.join("normalise.toml"),
+        "schema = 1\nprobe = \"normalize\"\n",
+    )
+    .unwrap();
+    bossage(&[library.as_slice(), &[text(&corpus)]].concat())
+        .exits(2)
+        .says(&["normalise.toml", "`normalize`"]);
+    bossage(&["conform", "--hunt", "dot33"]).exits(2).says(&["dot33"]);
+    bossage(&["conform", "--time", "3"]).exits(2).says(&["--hunt"]);
+}

@@ -81,6 +81,22 @@ pub enum Error {
         /// The most that are run.
         limit: u64,
     },
+    /// An output whose bound cannot be attributed, since there is none of that name.
+    #[error("there is no output `{name}`; there are: {}", .known.join(", "))]
+    NoOutput {
+        /// What was asked for.
+        name: String,
+        /// The first of those that there are.
+        known: Vec<String>,
+    },
+    /// A file of the regression corpus is wrong.
+    #[error("corpus {file}: {message}")]
+    Corpus {
+        /// The file, or the folder.
+        file: String,
+        /// What is wrong, with its place.
+        message: String,
+    },
     /// Declared ranges that are wrong or do not fit the shader.
     #[error(transparent)]
     Ranges(bossage_bounds::Error),

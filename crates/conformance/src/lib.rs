@@ -30,6 +30,8 @@ mod dispatch;
 pub mod environment;
 mod error;
 pub mod generate;
+pub mod heat;
+pub mod hunt;
 pub mod machines;
 pub mod module;
 pub mod oracle;

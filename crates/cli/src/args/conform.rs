@@ -8,7 +8,8 @@ pub(crate) const EXAMPLE: &str = "\
 Examples:
   bossage conform
   bossage conform parallax_offset --route wgsl,spirv --adapter llvmpipe --html conform.html
-  bossage conform --shader examples/shaders/tone_map.wgsl --inputs 256 --seed 7";
+  bossage conform --shader examples/shaders/tone_map.wgsl --inputs 256 --seed 7
+  bossage conform --hunt codec_octahedral --time 30";
 
 /// `bossage conform`.
 #[derive(Debug, clap::Args)]
@@ -42,11 +43,42 @@ pub(crate) struct Conform {
     /// Write the report as a web page
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
+    /// Say in the JSON and HTML reports which source lines the error bound of this output comes from: a number (of the library's
+    /// functions) or a name (of a shader of your own, where it is the widest otherwise)
+    #[arg(long, value_name = "OUTPUT")]
+    pub(crate) attribute: Option<String>,
+    #[command(flatten, next_help_heading = "Hard inputs")]
+    pub(crate) hunt: Hunt,
     #[command(flatten, next_help_heading = "A shader of your own")]
     pub(crate) user: UserShader,
     /// Run one request of another process: it comes in on standard input, answers go to standard output
     #[arg(long, hide = true)]
     pub(crate) serve: bool,
+}
+
+/// The search for hard inputs.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Hunt {
+    /// Search for inputs at which the library's functions, or a shader of your own, err most or are known least
+    #[arg(long, conflicts_with_all = ["scene", "shard", "full", "list", "junit", "html", "attribute"])]
+    pub(crate) hunt: bool,
+    /// Seconds that the search takes, for all functions together
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, requires = "hunt", value_parser = seconds)]
+    pub(crate) time: f64,
+    /// Only errors and widths of so many ULPs count as found
+    #[arg(long, value_name = "ULPS", default_value_t = 64.0, requires = "hunt", value_parser = ulps)]
+    pub(crate) threshold: f64,
+    /// Where hard inputs of the library are kept, a file a function [default: crates/conformance/corpus, where that is]
+    #[arg(long, value_name = "DIR", requires = "hunt")]
+    pub(crate) corpus: Option<PathBuf>,
+}
+
+/// A number of ULPs.
+fn ulps(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(ulps) if ulps.is_finite() && ulps >= 0.0 => Ok(ulps),
+        _ => Err("write a number of ULPs, 0 or more".to_owned()),
+    }
 }
 
 /// A shader that is not the library's.
@@ -68,8 +100,8 @@ pub(crate) struct UserShader {
     /// How many inputs an entry point gets, chosen from its ranges
     #[arg(long, value_name = "N", default_value_t = 64, requires = "shader", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) inputs: u32,
-    /// The seed of the inputs
-    #[arg(long, value_name = "SEED", default_value_t = 1, requires = "shader")]
+    /// The seed of the inputs, and of the search for hard ones
+    #[arg(long, value_name = "SEED", default_value_t = 1)]
     pub(crate) seed: u64,
     /// Workgroups of a dispatch along x, y and z [default: what the ranges say, else one invocation an element of the longest array]
     #[arg(long, value_name = "X,Y,Z", requires = "shader")]

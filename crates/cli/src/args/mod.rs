@@ -64,7 +64,7 @@ pub(crate) enum Command {
     Check(check::Check),
     /// Execute the emitted code and compare its numbers with float64 truth
     #[command(after_help = conform::EXAMPLE)]
-    Conform(conform::Conform),
+    Conform(Box<conform::Conform>),
     /// Draw a scene into a PNG
     #[command(after_help = render::EXAMPLE)]
     Render(render::Render),

@@ -3,10 +3,12 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use bossage_conformance::heat::{self, Heat};
 use bossage_conformance::{CaseResult, Progress, Report, Route, Selection, Verdict as CaseVerdict, report};
 use bossage_runner::AdapterSelector;
+use bossage_shaders::Library;
 
-use super::conform_shader;
+use super::{conform_shader, hunt};
 use crate::Verdict;
 use crate::args::Global;
 use crate::args::conform::Conform;
@@ -22,10 +24,19 @@ pub(crate) fn run(args: &Conform, global: &Global, console: Console) -> Result<V
     }
     let selection = selection(args)?;
     check_outputs(args)?;
+    if args.user.seed != 1 && args.user.shader.is_none() && !args.hunt.hunt {
+        return Err(Error::Call(
+            "--seed goes with --shader or --hunt; the library's cases have their seeds in their names"
+                .to_owned(),
+        ));
+    }
+    if args.hunt.hunt {
+        return hunt::run(args, &selection, global, console);
+    }
     let report = match &args.user.shader {
         Some(file) => conform_shader::report(file, args, &selection, global, console)?,
         None if args.list => return list(&selection),
-        None => library_report(&selection, global, console)?,
+        None => library_report(args, &selection, global, console)?,
     };
     write_reports(args, &report)?;
     if args.json.as_deref().is_some_and(is_standard_output) {
@@ -47,15 +58,46 @@ fn list(selection: &Selection) -> Result<Verdict> {
     Ok(Verdict::Fine)
 }
 
-fn library_report(selection: &Selection, global: &Global, console: Console) -> Result<Report> {
+fn library_report(
+    args: &Conform,
+    selection: &Selection,
+    global: &Global,
+    console: Console,
+) -> Result<Report> {
     // Before anything is run, so that a filter that finds nothing is answered at once.
     selection.cases().map_err(|error| explained(error, selection))?;
     let (library, _) = inputs::library(global)?;
-    Ok(bossage_conformance::run(
-        selection,
-        &library,
-        &mut Watch::new(console),
-    )?)
+    let heats = args
+        .attribute
+        .as_deref()
+        .map(|output| heats(output, selection, &library));
+    let heats = heats.transpose()?.unwrap_or_default();
+    let mut report = bossage_conformance::run(selection, &library, &mut Watch::new(console))?;
+    report.heats = heats;
+    Ok(report)
+}
+
+/// Probes whose bound is attributed in one call.
+const MOST_HEATS: usize = 16;
+
+/// Where the bounds of that output come from, for every probe that the filter selects.
+fn heats(output: &str, selection: &Selection, library: &Library) -> Result<Vec<Heat>> {
+    let number = output.parse().map_err(|_| {
+        Error::Call(format!(
+            "--attribute {output}: outputs of the library's functions have numbers, from 0"
+        ))
+    })?;
+    let probes = bossage_conformance::hunt::probes(selection.filter.as_deref());
+    if !(1..=MOST_HEATS).contains(&probes.len()) {
+        return Err(Error::Call(format!(
+            "--attribute: the filter selects {} functions; name 1 to {MOST_HEATS} of them, as in `conform normalise/hardened --attribute 0`",
+            probes.len()
+        )));
+    }
+    let seed = selection
+        .seed
+        .unwrap_or(bossage_conformance::generate::random::SEED);
+    Ok(heat::of_probes(&probes, number, seed, library)?)
 }
 
 fn check_outputs(args: &Conform) -> Result<()> {
@@ -67,7 +109,7 @@ fn check_outputs(args: &Conform) -> Result<()> {
 }
 
 /// `-` is standard output.
-fn is_standard_output(path: &Path) -> bool {
+pub(super) fn is_standard_output(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 

@@ -8,6 +8,7 @@ use std::io::{BufReader, stdin, stdout};
 use std::path::Path;
 use std::time::Duration;
 
+use bossage_conformance::heat::Wanted;
 use bossage_conformance::user::{Children, Options, run as run_shader, serve as serve_request};
 use bossage_conformance::{Report, Selection};
 use bossage_translate::Shader;
@@ -20,7 +21,6 @@ use crate::console::Console;
 use crate::error::{Error, Result};
 use crate::inputs::{self, Inputs};
 use crate::numeric;
-use crate::options;
 
 /// The most workgroups along an axis: what every adapter takes.
 const MAX_WORKGROUPS: u32 = 65_535;
@@ -35,15 +35,7 @@ pub(crate) fn report(
 ) -> Result<Report> {
     let shader = read(file, &args.user, global)?;
     let declared = numeric::sidecar(file, args.user.ranges.as_deref())?;
-    let options = Options {
-        entry: args.user.entry.clone(),
-        filter: args.filter.clone(),
-        seed: args.user.seed,
-        inputs: args.user.inputs as usize,
-        workgroups: args.user.workgroups.as_deref().map(workgroups).transpose()?,
-        operations: args.user.operations,
-        arguments: arguments(file, &args.user),
-    };
+    let options = options(file, args)?;
     let program = std::env::current_exe()
         .map_err(|error| Error::Environment(format!("this program's own file cannot be found: {error}")))?;
     let children = Children {
@@ -62,7 +54,26 @@ pub(crate) fn report(
     Ok(report?)
 }
 
-fn read(file: &Path, user: &UserShader, global: &Global) -> Result<Shader> {
+/// What of the shader is run.
+pub(super) fn options(file: &Path, args: &Conform) -> Result<Options> {
+    let wants_a_page = args.html.is_some() || args.json.is_some();
+    Ok(Options {
+        entry: args.user.entry.clone(),
+        filter: args.filter.clone(),
+        seed: args.user.seed,
+        inputs: args.user.inputs as usize,
+        workgroups: args.user.workgroups.as_deref().map(workgroups).transpose()?,
+        operations: args.user.operations,
+        attribute: match &args.attribute {
+            Some(name) => Wanted::Named(name.clone()),
+            None if wants_a_page => Wanted::Widest,
+            None => Wanted::Nothing,
+        },
+        arguments: arguments(file, &args.user),
+    })
+}
+
+pub(super) fn read(file: &Path, user: &UserShader, global: &Global) -> Result<Shader> {
     if file.extension().is_some_and(|extension| extension == "toml") {
         return Err(Error::Call(format!(
             "{} is a scene; --shader takes a shader, --scene a scene",
@@ -71,7 +82,7 @@ fn read(file: &Path, user: &UserShader, global: &Global) -> Result<Shader> {
     }
     let (library, _) = inputs::library(global)?;
     let mut inputs = Inputs::default();
-    inputs.add(file, user.stage.map(options::stage), &library)?;
+    inputs.add(file, user.stage.map(crate::options::stage), &library)?;
     let module = inputs.modules.first();
     module
         .ok_or_else(|| Error::Call(format!("{} holds no shader", file.display())))?
@@ -90,7 +101,7 @@ fn arguments(file: &Path, user: &UserShader) -> Vec<String> {
     );
     add(
         "--stage",
-        user.stage.map(|stage| options::stage(stage).to_string()),
+        user.stage.map(|stage| crate::options::stage(stage).to_string()),
     );
     add("--inputs", Some(user.inputs.to_string()));
     add("--seed", Some(user.seed.to_string()));

@@ -9,5 +9,6 @@ pub(crate) mod conform_shader;
 pub(crate) mod demo;
 pub(crate) mod doctor;
 pub(crate) mod emit;
+pub(crate) mod hunt;
 pub(crate) mod plan;
 pub(crate) mod render;

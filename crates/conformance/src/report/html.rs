@@ -50,6 +50,7 @@ fn body(report: &Report) -> Markup {
         (summary(report))
         (matrix(report))
         (failures(report))
+        (super::heat::section(&report.heats))
         (all_cases(report))
         (environment(report))
     }

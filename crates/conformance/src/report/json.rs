@@ -8,6 +8,7 @@ use serde::{Serialize, Serializer};
 use super::{CaseResult, Report, SCHEMA, Totals};
 use crate::environment::Environment;
 use crate::error::Error;
+use crate::heat::Heat;
 
 /// A number that may be one JSON does not have.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,6 +57,8 @@ struct Document<'a> {
     environment: &'a Environment,
     totals: Totals,
     cases: &'a [CaseResult],
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    heats: &'a [Heat],
 }
 
 /// The report as pretty-printed JSON with a line's end.
@@ -68,6 +71,7 @@ pub fn write(report: &Report) -> Result<String, Error> {
         environment: &report.environment,
         totals: report.totals(),
         cases: &report.cases,
+        heats: &report.heats,
     };
     let text = serde_json::to_string_pretty(&document).map_err(|error| Error::Report {
         format: "JSON",

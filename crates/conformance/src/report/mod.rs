@@ -2,6 +2,7 @@
 //!
 //! The JSON keys are stable (`"schema": 1`): keys may be added, none renamed or removed.
 
+mod heat;
 pub mod html;
 pub mod json;
 pub mod junit;
@@ -13,6 +14,7 @@ use serde::Serialize;
 use crate::case_id::CaseId;
 use crate::compare::Worst;
 use crate::environment::Environment;
+use crate::heat::Heat;
 use crate::route::Route;
 use crate::suite::accuracy;
 use crate::verdict::Verdict;
@@ -171,6 +173,8 @@ pub struct Report {
     pub environment: Environment,
     /// The cases, sorted by name, route and adapter.
     pub cases: Vec<CaseResult>,
+    /// Where error bounds come from, as far as that was asked for.
+    pub heats: Vec<Heat>,
 }
 
 impl Report {
@@ -178,7 +182,11 @@ impl Report {
     #[must_use]
     pub fn new(environment: Environment, mut cases: Vec<CaseResult>) -> Self {
         cases.sort_by(|a, b| (&a.id, a.route, &a.adapter).cmp(&(&b.id, b.route, &b.adapter)));
-        Self { environment, cases }
+        Self {
+            environment,
+            cases,
+            heats: Vec::new(),
+        }
     }
 
     /// Counts over all cases.

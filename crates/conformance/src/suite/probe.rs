@@ -1,6 +1,6 @@
 //! Probe cases: one function of the library over hand-picked, hard and random inputs.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use bossage_runner::run_probe;
 use bossage_shaders::{Form, PROBES, Probe, Technique};
@@ -10,6 +10,7 @@ use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
 use crate::generate::{Inputs, control, edge, random, spaced};
+use crate::hunt::corpus::{self, Corpus};
 use crate::module::Module;
 use crate::oracle;
 use crate::route::Prepared;
@@ -27,12 +28,19 @@ pub const FULL: usize = 1_000_000;
 const PART: usize = ORDINARY;
 
 /// Where the inputs come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Generator {
     Control,
     Edge,
-    Spaced { count: usize },
-    Random { count: usize, seed: u64 },
+    Spaced {
+        count: usize,
+    },
+    Random {
+        count: usize,
+        seed: u64,
+    },
+    /// Hard inputs that a hunt found.
+    Corpus(&'static Corpus),
 }
 
 /// Items with what is expected of them.
@@ -66,11 +74,24 @@ pub fn cases(full: bool, seed: u64) -> impl Iterator<Item = Box<dyn Case>> {
         Generator::Spaced { count: spaced },
         Generator::Random { count, seed },
     ];
+    let hunted = |probe: &Probe| corpora().iter().find(|corpus| corpus.probe == probe.function());
     PROBES
         .iter()
-        .flat_map(move |probe| generators.map(|generator| (probe, generator)))
+        .flat_map(move |probe| {
+            let corpus = hunted(probe).map(Generator::Corpus);
+            generators
+                .into_iter()
+                .chain(corpus)
+                .map(move |generator| (probe, generator))
+        })
         .filter(|(probe, generator)| *generator != Generator::Control || !control::rows(probe).is_empty())
         .map(|(probe, generator)| Box::new(ProbeCase::new(probe, generator)) as Box<dyn Case>)
+}
+
+/// The embedded corpora, read once. A test reads them all, so that none is wrong.
+fn corpora() -> &'static [Corpus] {
+    static READ: OnceLock<Vec<Corpus>> = OnceLock::new();
+    READ.get_or_init(|| corpus::embedded().unwrap_or_default())
 }
 
 /// `technique[/form]/generator:params` of a probe: the form only where the technique has two.
@@ -92,6 +113,7 @@ impl ProbeCase {
             Generator::Edge => id(probe, "edge"),
             Generator::Spaced { count } => id(probe, "spaced").with("n", count),
             Generator::Random { count, seed } => id(probe, "random").with("n", count).with("seed", seed),
+            Generator::Corpus(_) => id(probe, "corpus"),
         };
         Self {
             id,
@@ -103,7 +125,7 @@ impl ProbeCase {
 
     fn parts(&self) -> usize {
         match self.generator {
-            Generator::Control | Generator::Edge => 1,
+            Generator::Control | Generator::Edge | Generator::Corpus(_) => 1,
             Generator::Spaced { count } | Generator::Random { count, .. } => count.div_ceil(PART),
         }
     }
@@ -114,6 +136,13 @@ impl ProbeCase {
             Generator::Edge => edge::generate(self.probe),
             Generator::Spaced { count } => {
                 spaced::generate(self.probe, part * PART, PART.min(count - part * PART))
+            }
+            Generator::Corpus(corpus) => {
+                let mut inputs = Inputs::of(self.probe);
+                for found in &corpus.found {
+                    inputs.values.extend(&found.input);
+                }
+                inputs
             }
             Generator::Random { count, seed } => {
                 random::generate(self.probe, PART.min(count - part * PART), part, seed)
@@ -204,7 +233,7 @@ impl ProbeCase {
     fn has_reviewed_widths(&self) -> bool {
         match self.generator {
             Generator::Random { count, seed } => count >= width::ITEMS && seed == random::SEED,
-            Generator::Control | Generator::Edge | Generator::Spaced { .. } => false,
+            Generator::Control | Generator::Edge | Generator::Spaced { .. } | Generator::Corpus(_) => false,
         }
     }
 
@@ -215,9 +244,8 @@ impl ProbeCase {
             (Generator::Random { .. }, Form::Hardened) | (Generator::Control, _) => {
                 Comparison::demanding_answers()
             }
-            (Generator::Random { .. }, Form::Published) | (Generator::Edge | Generator::Spaced { .. }, _) => {
-                Comparison::default()
-            }
+            (Generator::Random { .. }, Form::Published)
+            | (Generator::Edge | Generator::Spaced { .. } | Generator::Corpus(_), _) => Comparison::default(),
         }
     }
 
@@ -229,7 +257,7 @@ impl ProbeCase {
             (Generator::Random { .. }, Form::Hardened) => limit(undecided::Inputs::Random),
             (Generator::Spaced { .. }, Form::Hardened) => limit(undecided::Inputs::Spaced),
             (Generator::Random { .. } | Generator::Spaced { .. }, Form::Published)
-            | (Generator::Control | Generator::Edge, _) => 1.0,
+            | (Generator::Control | Generator::Edge | Generator::Corpus(_), _) => 1.0,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What the outputs may be, from the shader's own IR at each of its inputs.
 
 use bossage_bounds::ranges::Point;
-use bossage_bounds::{Accept, BufferData, Domain, Error, F64, Limits, Scalar, run_compute};
+use bossage_bounds::{Accept, BufferData, Domain, Error, F32, F64, Limits, Scalar, run_compute};
 use bossage_translate::{Code, Diagnostic, Shader};
 use rayon::prelude::*;
 
@@ -10,16 +10,16 @@ use crate::case::with_causes;
 
 /// Outputs at one input.
 #[derive(Clone, Debug)]
-pub(super) struct Expected {
+pub(crate) struct Expected {
     /// What is allowed.
-    pub(super) allowed: Vec<Scalar<Accept>>,
+    pub(crate) allowed: Vec<Scalar<Accept>>,
     /// What the formula says, where that could be evaluated.
-    pub(super) formula: Option<Vec<Scalar<F64>>>,
+    pub(crate) formula: Option<Vec<Scalar<F64>>>,
 }
 
 /// Why there are none.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Unknown {
+pub(crate) enum Unknown {
     /// The shader does not end within its budget of operations.
     Endless(String),
     /// The evaluator leaves something out, or lacks memory.
@@ -27,22 +27,32 @@ pub(super) enum Unknown {
 }
 
 /// For each input the expected outputs.
-pub(super) fn of(ready: &Ready, shader: &Shader) -> Vec<Result<Expected, Unknown>> {
+pub(crate) fn of(ready: &Ready, shader: &Shader) -> Vec<Result<Expected, Unknown>> {
     let one = |point| at(ready, point).map_err(|error| unknown(&error, ready, shader));
     ready.points.par_iter().map(one).collect()
 }
 
 /// The expected outputs at a point.
-pub(super) fn at(ready: &Ready, point: &Point) -> Result<Expected, Error> {
+pub(crate) fn at(ready: &Ready, point: &Point) -> Result<Expected, Error> {
     Ok(Expected {
-        allowed: outputs::<Accept>(ready, point)?,
-        formula: outputs::<F64>(ready, point).ok(),
+        allowed: outputs(ready, point, &ready.limits)?,
+        formula: outputs(ready, point, &ready.limits).ok(),
     })
 }
 
-fn outputs<D: Domain>(ready: &Ready, point: &Point) -> Result<Vec<Scalar<D>>, Error> {
+/// What a perfect machine returns at a point.
+pub(crate) fn perfect(ready: &Ready, point: &Point) -> Result<Vec<Scalar<F32>>, Error> {
+    outputs(ready, point, &ready.limits)
+}
+
+/// The allowed outputs at a point, within other limits.
+pub(crate) fn allowed(ready: &Ready, point: &Point, limits: &Limits) -> Result<Vec<Scalar<Accept>>, Error> {
+    outputs(ready, point, limits)
+}
+
+fn outputs<D: Domain>(ready: &Ready, point: &Point, limits: &Limits) -> Result<Vec<Scalar<D>>, Error> {
     let (mut bindings, _) = ready.inputs.at::<D>(&[point])?;
-    run_compute(&ready.program, &mut bindings, ready.workgroups, &ready.limits)?;
+    run_compute(&ready.program, &mut bindings, ready.workgroups, limits)?;
     let of_buffer = |buffer: &bossage_bounds::BufferUse| match bindings.buffers.get(&buffer.binding) {
         Some(BufferData::Scalars(scalars)) => scalars.clone(),
         // A run leaves every writable buffer as scalars.

@@ -13,7 +13,7 @@ use crate::ulp::{error_ulps, ulp};
 use crate::verdict::Verdict;
 
 /// What an output may be, as an interval of real numbers; integers and truth values are numbers too.
-pub(super) fn bound(allowed: &Scalar<Accept>) -> Bound {
+pub(crate) fn bound(allowed: &Scalar<Accept>) -> Bound {
     match *allowed {
         Scalar::Float(interval) => Bound::from(interval),
         // Nothing is known of an integer that may be any of 32 bits.
@@ -26,7 +26,7 @@ pub(super) fn bound(allowed: &Scalar<Accept>) -> Bound {
 }
 
 /// A value as a number. Integers beyond 2^53 are compared by the nearest double, which can only hide a difference below that.
-pub(super) fn number(got: &Scalar<F32>) -> f64 {
+pub(crate) fn number(got: &Scalar<F32>) -> f64 {
     match *got {
         Scalar::Float(x) => x,
         Scalar::Int(lo, _) => lo as f64,
@@ -34,7 +34,8 @@ pub(super) fn number(got: &Scalar<F32>) -> f64 {
     }
 }
 
-fn formula(scalar: &Scalar<F64>) -> Option<f64> {
+/// The formula's value as a number.
+pub(crate) fn formula(scalar: &Scalar<F64>) -> Option<f64> {
     match *scalar {
         Scalar::Float(x) => Some(x),
         Scalar::Int(lo, _) => Some(lo as f64),

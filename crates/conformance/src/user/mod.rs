@@ -17,8 +17,8 @@
 
 mod agree;
 mod child;
-mod expect;
-mod judge;
+pub(crate) mod expect;
+pub(crate) mod judge;
 mod plan;
 mod request;
 #[cfg(test)]
@@ -33,12 +33,14 @@ use serde::{Deserialize, Serialize};
 
 pub use child::Children;
 pub use plan::Plan;
+pub(crate) use plan::{Ready, plans};
 pub use request::{Buffer, Job, Request, Texels, execute, serve};
 
 use crate::case::Outcome;
 use crate::case_id::CaseId;
 use crate::compare::Comparison;
 use crate::error::Error;
+use crate::heat::{self, Heat, Wanted};
 use crate::report::{CaseResult, Report};
 use crate::route::Route;
 use crate::run::{Progress, Selection, environment};
@@ -68,6 +70,8 @@ pub struct Options {
     pub workgroups: Option<[u32; 3]>,
     /// Operations that an invocation may take on average where its outputs' intervals are computed.
     pub operations: u64,
+    /// Which output's bound is attributed to source lines.
+    pub attribute: Wanted,
     /// What the command line needs besides a case's name to run it again.
     pub arguments: Vec<String>,
 }
@@ -142,7 +146,7 @@ pub fn run(
     executor: &dyn Executor,
     progress: &mut dyn Progress,
 ) -> Result<Report, Error> {
-    let plans = plan::plans(shader, declared, options)?;
+    let plans = plans(shader, declared, options)?;
     let pairs = selection.pairs()?;
     let cells: Vec<(Route, String)> = pairs
         .adapters
@@ -161,19 +165,22 @@ pub fn run(
         });
     }
     progress.start(cells.len() * ids.iter().filter(|id| wanted(id)).count());
-    let mut results = Vec::new();
+    let (mut results, mut heats) = (Vec::new(), Vec::new());
     for plan in plans
         .iter()
         .filter(|plan| wanted(&plan.id("ranges")) || wanted(&plan.id("agreement")))
     {
-        let mut of_plan = results_of(plan, shader, &cells, options, executor);
+        let (mut of_plan, heat) = results_of(plan, shader, &cells, options, executor)?;
+        heats.extend(heat);
         of_plan.retain(|result| wanted(&result.id));
         of_plan.iter().for_each(|result| progress.done(result));
         results.extend(of_plan);
     }
     let mut environment = environment(selection, &pairs);
     environment.seed = options.seed;
-    Ok(Report::new(environment, results))
+    let mut report = Report::new(environment, results);
+    report.heats = heats;
+    Ok(report)
 }
 
 fn results_of(
@@ -182,7 +189,7 @@ fn results_of(
     cells: &[(Route, String)],
     options: &Options,
     executor: &dyn Executor,
-) -> Vec<CaseResult> {
+) -> Result<(Vec<CaseResult>, Option<Heat>), Error> {
     let ready = match &plan.ready {
         Ok(ready) => ready,
         Err(reason) => {
@@ -197,7 +204,7 @@ fn results_of(
                     result(plan, &cell, options, generator, Outcome::skipped(reason.clone()))
                 })
             };
-            return cells.iter().flat_map(skipped).collect();
+            return Ok((cells.iter().flat_map(skipped).collect(), None));
         }
     };
     let expected = expect::of(ready, shader);
@@ -230,7 +237,9 @@ fn results_of(
         .iter()
         .zip(agreed)
         .filter_map(|(cell, outcome)| Some(result(plan, cell, options, "agreement", outcome?)));
-    judged.chain(agreed).collect()
+    let results = judged.chain(agreed).collect();
+    let heat = heat::of_entry(plan, ready, shader.text(), &expected, &options.attribute)?;
+    Ok((results, heat))
 }
 
 fn result(plan: &Plan, cell: &Cell, options: &Options, generator: &str, outcome: Outcome) -> CaseResult {

@@ -29,20 +29,20 @@ pub struct Plan {
     seed: u64,
     inputs: usize,
     /// Ready to run, or why it cannot be.
-    pub(super) ready: Result<Ready, String>,
+    pub(crate) ready: Result<Ready, String>,
 }
 
 /// An entry point that can be run.
 #[derive(Debug)]
-pub(super) struct Ready {
+pub(crate) struct Ready {
     /// Its own IR, as it was read.
-    pub(super) program: Program,
-    pub(super) inputs: Inputs,
-    pub(super) points: Vec<Point>,
-    pub(super) workgroups: [u32; 3],
-    pub(super) limits: Limits,
+    pub(crate) program: Program,
+    pub(crate) inputs: Inputs,
+    pub(crate) points: Vec<Point>,
+    pub(crate) workgroups: [u32; 3],
+    pub(crate) limits: Limits,
     /// Writable buffers, with the names of their scalars.
-    pub(super) outputs: Vec<(BufferUse, Vec<String>)>,
+    pub(crate) outputs: Vec<(BufferUse, Vec<String>)>,
     wgsl: String,
     /// The entry point's name in `wgsl`.
     entry: String,
@@ -60,7 +60,7 @@ impl Plan {
 }
 
 /// The entry points that are asked for. One that cannot be run is planned with the reason, if another can be.
-pub(super) fn plans(
+pub(crate) fn plans(
     shader: &Shader,
     declared: Option<&Declared>,
     options: &Options,
@@ -274,7 +274,7 @@ impl Ready {
     }
 
     /// The name of an output.
-    pub(super) fn name(&self, output: usize) -> String {
+    pub(crate) fn name(&self, output: usize) -> String {
         let mut at = output;
         for (buffer, names) in &self.outputs {
             if let Some(name) = names.get(at) {
@@ -302,7 +302,7 @@ impl Ready {
     }
 
     /// The inputs of a point by name; those with the index of the output's name first.
-    pub(super) fn named_inputs(&self, point: &Point, output: &str) -> Vec<NamedInput> {
+    pub(crate) fn named_inputs(&self, point: &Point, output: &str) -> Vec<NamedInput> {
         let index = output
             .find('[')
             .and_then(|at| Some(&output[at..=at + output[at..].find(']')?]));

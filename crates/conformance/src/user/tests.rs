@@ -5,6 +5,7 @@ use bossage_translate::{Shader, Source};
 
 use super::{Execution, Executor, InProcess, OPERATIONS, Options, Request, Stop, run};
 use crate::error::Error;
+use crate::heat::Wanted;
 use crate::report::{CaseResult, Report};
 use crate::route::Route;
 use crate::run::{Selection, Silent};
@@ -45,6 +46,7 @@ fn options() -> Options {
         inputs: 6,
         workgroups: None,
         operations: OPERATIONS,
+        attribute: Wanted::Widest,
         arguments: vec!["--shader".to_owned(), "folder/scale.wgsl".to_owned()],
     }
 }
@@ -180,7 +182,7 @@ fn routes_that_disagree_are_named() {
     let declared = Declared::parse("scale.ranges.toml", RANGES).unwrap();
     let cells = [Route::Wgsl, Route::Spirv, Route::Embedded].map(|route| (route, "one".to_owned()));
     let plan = &super::plan::plans(&shader, Some(&declared), &options()).unwrap()[0];
-    let results = super::results_of(plan, &shader, &cells, &options(), &Other);
+    let (results, _) = super::results_of(plan, &shader, &cells, &options(), &Other).unwrap();
     let verdict = |generator: &str, route: Route| {
         results
             .iter()
@@ -342,4 +344,43 @@ fn textures_are_sampled_with_seeded_texels() {
     let skipped = run_with(&depth, None, &InProcess).unwrap();
     let reason = ranges_case(&skipped).reason.clone().unwrap();
     assert!(reason.contains("`map`"), "{reason}");
+}
+
+/// `log2` in [0.5, 2] has an absolute error of 2^-21; the line beside it rounds once.
+#[test]
+fn the_line_that_dominates_a_bound_is_hot() {
+    let text = "
+@group(0) @binding(0) var<storage, read> a: array<f32>;
+@group(0) @binding(1) var<storage, read_write> result: array<f32>;
+@compute @workgroup_size(16) fn main(@builtin(local_invocation_index) i: u32) {
+    let rough = log2(a[i]);
+    let fine = a[i] * 1.25;
+    result[i] = rough + fine;
+}";
+    let ranges = "schema = 1\n[ranges]\na = { lo = 0.9, hi = 1.1 }\n";
+    let report = run_with(text, Some(ranges), &InProcess).unwrap();
+    let share = |report: &Report, line: usize| report.heats[0].lines[line - 1].share.unwrap_or(0.0);
+    assert!(
+        share(&report, 5) > 0.5 && share(&report, 6) < 0.25,
+        "{:?}",
+        report.heats
+    );
+    let swapped = text
+        .replace("log2(a[i])", "a[i] * 1.25 ")
+        .replace("fine = a[i] * 1.25", "fine = log2(a[i])");
+    let report = run_with(&swapped, Some(ranges), &InProcess).unwrap();
+    assert!(
+        share(&report, 6) > 0.5 && share(&report, 5) < 0.25,
+        "{:?}",
+        report.heats
+    );
+    let page = crate::report::html::write(&report);
+    for word in [
+        "Where the error bound comes from",
+        "--share:",
+        "nothing computed",
+        "scope=\"row\"",
+    ] {
+        assert!(page.contains(word), "{word}");
+    }
 }
