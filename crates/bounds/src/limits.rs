@@ -18,7 +18,7 @@ pub struct Limits {
     pub count: bool,
     /// Whether to watch for operations that go wrong, which [`crate::lint`] asks for.
     pub watch: bool,
-    /// A place in the source, in bytes: operations that begin there are taken for exact, which [`crate::attribution`] asks for.
+    /// A place in the source, in bytes: operations that begin there are taken for exact, which [`attribution`](fn@crate::attribution) asks for.
     pub exact: Option<std::ops::Range<usize>>,
 }
 

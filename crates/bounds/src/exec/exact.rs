@@ -1,4 +1,4 @@
-//! Operations taken for exact, for [`crate::attribution`]: what an instruction has just computed is narrowed to what its function makes of
+//! Operations taken for exact, for [`attribution`](fn@crate::attribution): what an instruction has just computed is narrowed to what its function makes of
 //! the operands alone, without the error that the rules allow the operation itself.
 //!
 //! The function is evaluated in f64 at the ends and in the middle of every operand. An extremum in between, elsewhere than in the middle,

@@ -1,8 +1,8 @@
 //! The hunt for hard inputs: a seeded, guided search for those at which a shader errs most, or at which least is known of its result.
 //!
 //! Two goals for each output: the **error** of the result in ULPs of the truth, and the **width** of the acceptance interval in ULPs. A
-//! third of the budget draws inputs as the generators do, the rest breeds the best ones ([`search`](mod@search)): steps of single bits, numbers
-//! and vectors copied between inputs and within one, halfway points. What is found is made plain ([`minimise`](mod@minimise)): every number
+//! third of the budget draws inputs as the generators do, the rest breeds the best ones (`search`): steps of single bits, numbers
+//! and vectors copied between inputs and within one, halfway points. What is found is made plain (`minimise`): every number
 //! that may be 0, ±1, a power of two or a shorter one while half of the score stays, becomes that.
 //!
 //! Only outputs count on which the rules say something and one result follows: where they leave a result open every error is allowed,

@@ -5,7 +5,7 @@
 //! fragment stage writes its interpolated inputs, and each of them must lie between the corners' intervals, weighted as the pixel's
 //! centre lies between the true corners. Where no triangle is, nothing may be drawn; where one is, something must be.
 //!
-//! A rasteriser keeps some bits ([`subpixel_bits`]) of a corner's place, so what is interpolated may be taken that share of a pixel beside the centre;
+//! A rasteriser keeps some bits (`subpixel_bits`) of a corner's place, so what is interpolated may be taken that share of a pixel beside the centre;
 //! and it interpolates in f32, by plane equations whose largest term is the value at the picture's corner. Pixels whose centre lies within
 //! that share of a pixel of a triangle's edge are left out.
 
