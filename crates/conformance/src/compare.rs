@@ -171,6 +171,18 @@ impl fmt::Display for Worst {
     }
 }
 
+/// What an interval must say besides containing the value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Demand {
+    /// Nothing.
+    #[default]
+    Nothing,
+    /// That it is no open one.
+    Answer,
+    /// That it is not joined from several results either.
+    OneAnswer,
+}
+
 /// The comparison of one case's outputs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Comparison {
@@ -186,8 +198,8 @@ pub struct Comparison {
     pub refusal: Option<Refusal>,
     /// The worst output.
     pub worst: Option<Worst>,
-    /// Whether an output on which the rules say nothing is refused.
-    demands_answers: bool,
+    /// Which outputs are refused although the value lies in the interval.
+    demands: Demand,
     /// The badness of `worst`, for merging.
     badness: f64,
 }
@@ -206,7 +218,16 @@ impl Comparison {
     #[must_use]
     pub fn demanding_answers() -> Self {
         Self {
-            demands_answers: true,
+            demands: Demand::Answer,
+            ..Self::default()
+        }
+    }
+
+    /// For inputs whose answer is known: outputs that are open, or may be one thing or another, are refused.
+    #[must_use]
+    pub fn demanding_one_answer() -> Self {
+        Self {
+            demands: Demand::OneAnswer,
             ..Self::default()
         }
     }
@@ -223,7 +244,11 @@ impl Comparison {
     }
 
     fn output(&mut self, input: &[f32], output: usize, got: f32, expected: &Expected) {
-        let open = self.demands_answers && !expected.bound.is_decided();
+        let open = match self.demands {
+            Demand::Nothing => false,
+            Demand::Answer => !expected.bound.is_decided(),
+            Demand::OneAnswer => !expected.bound.is_settled(),
+        };
         let refusal = refusal(got, expected).or(open.then_some(Refusal::Open));
         self.count(&expected.bound, refusal);
         self.keep_worst(badness(got, expected, refusal), refusal, || {

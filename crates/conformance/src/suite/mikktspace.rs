@@ -53,7 +53,7 @@ impl MikktspaceCase {
     }
 
     fn kernels(mesh: &Mesh, id: &CaseId) -> MeshCase {
-        MeshCase::new(id.clone(), Form::Hardened, mesh.clone())
+        MeshCase::new(id.clone(), Form::Hardened, mesh.clone(), false)
     }
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {

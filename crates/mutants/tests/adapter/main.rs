@@ -5,4 +5,5 @@
 
 mod command;
 mod controls;
+mod sample;
 mod support;

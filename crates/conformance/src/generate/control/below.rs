@@ -2,6 +2,7 @@
 
 use super::{IDENTITY, Known, known};
 
+const SMALL: f32 = 1e-25;
 const TINY: f32 = 7.888_609e-31;
 const HUGE: f32 = 1.267_650_6e30;
 const FLAT: [f32; 9] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
@@ -70,6 +71,22 @@ pub(super) const ROWS: &[Known] = &[
         &[0.0, 0.0, 0.0],
     ),
     known("column_scales", &FLAT, &[1.0, 1.880_790_961_315_66e-37, 1.0]),
+    // Mirrors, however small or large their axes.
+    known(
+        "mirror_sign",
+        &[SMALL, 0.0, 0.0, 0.0, SMALL, 0.0, 0.0, 0.0, -SMALL],
+        &[-1.0],
+    ),
+    known(
+        "mirror_sign",
+        &[TINY, 0.0, 0.0, 0.0, -HUGE, 0.0, 0.0, 0.0, 1.0],
+        &[-1.0],
+    ),
+    known(
+        "mirror_sign",
+        &[HUGE, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, -TINY],
+        &[-1.0],
+    ),
     // No volume, no mirror.
     known("mirror_sign", &FLAT, &[1.0]),
     known("mirror_sign", &IDENTITY, &[1.0]),

@@ -59,6 +59,8 @@ pub(super) const ROWS: &[Known] = &[
     known("mip_shares", &[1.0, 5.0], &[0.2, 0.4, 0.4]),
     known("normal_mips", &[0.375, 0.0, 0.5], &[0.6, 0.0, 0.8]),
     known("normal_mips", &[0.0, 0.0, 0.0], &[0.0, 0.0, 1.0]),
+    // The shortest average that has a direction.
+    known("normal_mips", &[f32::MIN_POSITIVE, 0.0, 0.0], &[1.0, 0.0, 0.0]),
     known("normal_mips_published", &[0.375, 0.0, 0.5], &[0.375, 0.0, 0.5]),
     known("normal_mips_bytes", &[0.0, 0.0, 0.5, 0.0], &[128.0, 128.0, 255.0]),
     known("normal_mips_bytes", &[-0.25, 0.0, 0.0, 1.0], &[1.0, 128.0, 128.0]),
