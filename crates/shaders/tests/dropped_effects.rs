@@ -300,7 +300,12 @@ const EFFECTS: &[Effect] = &[
         name: "capture",
         on: |_| false,
         vertex: &[],
-        fragment: &["front_facing"],
+        fragment: &[
+            "captured_position",
+            "captured_normal",
+            "captured_tangent",
+            "captured_uv",
+        ],
     },
 ];
 

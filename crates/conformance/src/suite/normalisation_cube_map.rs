@@ -208,7 +208,8 @@ impl CubeCase {
             name,
             kernel: self.kernel,
             resources,
-            invocations: [directions.len() as u32, 1, 1],
+            // One more than there are directions: nothing may come of it.
+            invocations: [directions.len() as u32 + 1, 1, 1],
         }
     }
 

@@ -5,11 +5,13 @@
 //!
 //! - `permutations`: one case for each kind of shading, published and hardened;
 //! - `cutoff`: an alpha that *is* the cutoff, which is kept, and the next float below it, which is not. Texels of one value, read without
-//!   filtering, leave the alpha test nothing to be undecided about.
+//!   filtering, leave the alpha test nothing to be undecided about;
+//! - `horizon`: an embossed sheet under a light that lies in its plane, which is none.
 
 use std::collections::BTreeSet;
 
 use bossage_runner::Filter;
+use bossage_scene::Draw;
 use bossage_shaders::{Albedo, Alpha, FeatureSet, Form, Lights, Shading, Stage};
 
 use super::expected::Expectations;
@@ -60,7 +62,12 @@ pub fn cases(full: bool) -> impl Iterator<Item = Box<dyn Case>> {
         let id = CaseId::new("surface", None, "cutoff").with("shading", shading.as_str());
         Box::new(Cutoff { id, shading }) as Box<dyn Case>
     });
-    permutations.chain(cutoffs)
+    let horizon = Horizon {
+        id: CaseId::new("surface", None, "horizon"),
+    };
+    permutations
+        .chain(cutoffs)
+        .chain([Box::new(horizon) as Box<dyn Case>])
 }
 
 /// The fields of a feature set, each as a number.
@@ -220,6 +227,56 @@ impl Case for Cutoff {
 
     fn modules(&self) -> Result<Vec<Module>, String> {
         Ok(modules(&specimen::at_cutoff(&self.features(), false)?))
+    }
+
+    fn run(&self, bench: &Bench<'_>) -> Outcome {
+        self.judge(bench).unwrap_or_else(Outcome::failed)
+    }
+}
+
+/// A light exactly in the plane of an embossed sheet: neither above it nor below.
+struct Horizon {
+    id: CaseId,
+}
+
+impl Horizon {
+    fn draw() -> Result<Draw, String> {
+        let features = FeatureSet {
+            lights: Lights::Directional,
+            shading: Shading::Emboss,
+            ..FeatureSet::default()
+        };
+        specimen::at_horizon(&features.canonical())
+    }
+
+    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
+        let draw = Self::draw()?;
+        let object = Object {
+            bench,
+            number: 0,
+            size: SIZE,
+            filter: Filter::Linear,
+            expectations: &Expectations::default(),
+        };
+        let drawn = object.render(&draw, Stage::Fragment)?;
+        let mut comparison = Comparison::default();
+        comparison.merge(judged(&drawn.pixels, demanding(&draw)));
+        // Which side the light is on is decided at every pixel.
+        Ok(Outcome::of(drawn.pixels.len(), comparison, 0.0))
+    }
+}
+
+impl Case for Horizon {
+    fn id(&self) -> &CaseId {
+        &self.id
+    }
+
+    fn basis(&self) -> Vec<&'static str> {
+        crate::oracle::BASIS.to_vec()
+    }
+
+    fn modules(&self) -> Result<Vec<Module>, String> {
+        Ok(modules(&Self::draw()?))
     }
 
     fn run(&self, bench: &Bench<'_>) -> Outcome {

@@ -19,12 +19,14 @@ use bossage_scene::{
 use bossage_shaders::{
     Albedo, Alpha, FeatureSet, Lights, Normaliser as Normalises, Relief, Shading, Transform,
 };
-use glam::{DVec2, DVec3, DVec4, Vec3};
+use glam::{DVec2, DVec3, DVec4, Mat4, Vec3};
 
 use crate::case::with_causes;
 
 /// Texels along a side of the maps.
 const MAP_SIDE: u32 = 64;
+/// Rows of the height map: its sides differ.
+const HEIGHT_ROWS: u32 = 48;
 /// Texels along a side of the surroundings and of the normalisation cube map.
 const CUBE_SIDE: u32 = 32;
 
@@ -150,7 +152,11 @@ fn scene(features: &FeatureSet) -> Result<Scene, String> {
         Transform::Rigid => RIGID,
         Transform::General => GENERAL,
     };
-    let text = SCENE.replace("LIGHTS", &lights).replace("TRANSFORM", transform);
+    let mut text = SCENE.replace("LIGHTS", &lights).replace("TRANSFORM", transform);
+    if features.shading == Shading::WrapLambert {
+        // More than 1, which an occlusion never is.
+        text = text.replace("ambient = [0.13,", "ambient = [1.13,");
+    }
     let mut scene = bossage_scene::load_str("specimen.toml", &text).map_err(|error| with_causes(&error))?;
     if features.environment {
         scene.environment = Some(Environment {
@@ -252,7 +258,9 @@ fn normals() -> NormalMap {
 }
 
 fn heights() -> HeightField {
-    HeightField::from_fn(MAP_SIDE, MAP_SIDE, |x, y| {
+    HeightField::from_fn(MAP_SIDE, HEIGHT_ROWS, |x, y| {
+        // Whole waves along either side.
+        let y = y * MAP_SIDE / HEIGHT_ROWS;
         let waves =
             0.25 * wave(x, y, DVec2::new(1.0, 0.0), 0.15) + 0.2 * wave(x, y, DVec2::new(1.0, 1.0), 0.55);
         (0.5 + waves) as f32
@@ -317,6 +325,22 @@ pub(super) fn at_cutoff(features: &FeatureSet, below: bool) -> Result<Draw, Stri
     Ok(draw)
 }
 
+/// The sheet's frame along the world's axes everywhere, and a light that lies exactly in its plane.
+pub(super) fn at_horizon(features: &FeatureSet) -> Result<Draw, String> {
+    let mut draw = draw(features)?;
+    let mut mesh = Mesh::clone(&draw.mesh);
+    mesh.normals.fill(Vec3::Z);
+    mesh.tangents.fill(Vec3::X.extend(1.0));
+    draw.mesh = Arc::new(mesh);
+    let numbers = [
+        ("object.world_from_local", Mat4::IDENTITY.to_cols_array().to_vec()),
+        ("light.vector", vec![1.0, 0.0, 0.0, 0.0]),
+    ];
+    let named = numbers.map(|(name, values)| (name.to_owned(), values));
+    draw.uniforms.extend(named);
+    Ok(draw)
+}
+
 #[cfg(test)]
 mod tests {
     use glam::DMat4;
@@ -331,7 +355,7 @@ mod tests {
         assert!(alphas.contains(&0) && alphas.iter().any(|alpha| *alpha > 102 && *alpha < 255));
         let heights = heights();
         let step = |x: u32, y: u32| (heights.texel((x + 1) % MAP_SIDE, y) - heights.texel(x, y)).abs();
-        assert!(places().all(|(x, y)| step(x, y) < 0.06));
+        assert!(places().all(|(x, y)| step(x, y.min(HEIGHT_ROWS - 1)) < 0.06));
     }
 
     #[test]
