@@ -3,6 +3,23 @@
 use bossage_bounds::{Bindings, Domain, Limits, Outcome, Program, run_compute};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
+/// The corpus files in WGSL; each is evaluated in `corpus.rs`, `textures.rs` or `further.rs`.
+pub(crate) const FILES: [&str; 13] = [
+    "values",
+    "flow",
+    "integers",
+    "shared",
+    "wide",
+    "fragment",
+    "vertex",
+    "textures",
+    "subgroups",
+    "built_ins",
+    "clipped",
+    "narrow",
+    "arrays",
+];
+
 /// Parses and validates a module; panics with the compiler's message otherwise.
 pub(crate) fn module(source: &str) -> (naga::Module, ModuleInfo) {
     let module =

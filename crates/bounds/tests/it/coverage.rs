@@ -4,29 +4,12 @@
 //! The report, a line for each kind with the first shaders that reach it, is `tests/coverage.txt`; it is written anew with
 //! `BOSSAGE_UPDATE_DOCS=1 cargo test -p bossage-bounds --test it coverage`.
 
-use crate::common::{glsl, module, source};
+use crate::common::{FILES, glsl, module, source};
 use crate::kinds::{CLASSES, Kinds};
 use bossage_bounds::Program;
 use naga::{Binding, Block, Expression, Function, Module, Statement, TypeInner};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-
-/// The corpus files in WGSL; each is evaluated in `corpus.rs`, `textures.rs` or `further.rs`.
-const FILES: [&str; 13] = [
-    "values",
-    "flow",
-    "integers",
-    "shared",
-    "wide",
-    "fragment",
-    "vertex",
-    "textures",
-    "subgroups",
-    "built_ins",
-    "clipped",
-    "narrow",
-    "arrays",
-];
 
 /// Class, kinds, and why no shader of the tests reaches them. Whoever evaluates one gets [`bossage_bounds::Error::Unsupported`], or
 /// cannot make one from source at all.

@@ -1,29 +1,13 @@
 //! Shaders of the corpus with a few tokens changed: what still parses and validates is evaluated over every domain, at random inputs and
 //! at hard ones, and never panics. It may well end in an error: a budget, a size, something unsupported.
 
-use crate::common::source;
+use crate::common::{FILES, source};
 use bossage_bounds::ranges::{Inputs, Seed, Style};
 use bossage_bounds::{Accept, Domain, Error, F32, F64, Limits, Program, Range, run_entry};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, ShaderStage};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
-
-const FILES: [&str; 13] = [
-    "values",
-    "flow",
-    "integers",
-    "shared",
-    "wide",
-    "fragment",
-    "vertex",
-    "textures",
-    "subgroups",
-    "built_ins",
-    "clipped",
-    "narrow",
-    "arrays",
-];
 
 /// Tokens that make trouble where another of their kind stood.
 const NUMBERS: [&str; 16] = [
