@@ -88,10 +88,10 @@ pub fn cases(full: bool, seed: u64) -> impl Iterator<Item = Box<dyn Case>> {
         .map(|(probe, generator)| Box::new(ProbeCase::new(probe, generator)) as Box<dyn Case>)
 }
 
-/// The embedded corpora, read once. A test reads them all, so that none is wrong.
+/// The embedded corpora, read once. They are part of the program: a wrong one ends it, and a test finds it before.
 fn corpora() -> &'static [Corpus] {
     static READ: OnceLock<Vec<Corpus>> = OnceLock::new();
-    READ.get_or_init(|| corpus::embedded().unwrap_or_default())
+    READ.get_or_init(|| corpus::embedded().unwrap_or_else(|why| panic!("the embedded corpus: {why}")))
 }
 
 /// `technique[/form]/generator:params` of a probe: the form only where the technique has two.
