@@ -33,6 +33,20 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
         ],
     ),
     (
+        "study",
+        &[
+            "assets",
+            "shaders",
+            "translate",
+            "bounds",
+            "reference",
+            "scene",
+            "runner",
+            "embedded",
+            "conformance",
+        ],
+    ),
+    (
         "cli",
         &[
             "assets",
@@ -44,6 +58,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
             "runner",
             "embedded",
             "conformance",
+            "study",
         ],
     ),
     ("mutants", &["shaders", "translate", "runner", "conformance"]),
