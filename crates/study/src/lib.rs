@@ -13,4 +13,7 @@
 //! # Ok::<(), serde_json::Error>(())
 //! ```
 
+mod error;
 pub mod record;
+
+pub use error::Error;

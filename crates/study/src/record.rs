@@ -33,7 +33,7 @@ impl Default for Study {
 }
 
 /// A technique with its settings, on one map, seen at one angle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Point {
     /// Technique id, or `user:NAME` for a shader of one's own.
     pub technique: String,
@@ -43,14 +43,32 @@ pub struct Point {
     pub map: String,
     /// Angle of the view from the polygon's normal, degrees.
     pub view_deg: f64,
-    /// Distance from the true hit.
+    /// How many rays it is of.
+    #[serde(default)]
+    pub rays: u64,
+    /// Distance from the nearest hit that counts.
     pub error_texels: ErrorTexels,
+    /// Where answers and truth differ in kind.
+    #[serde(default)]
+    pub disagreement: Disagreement,
+    /// Share of rays with more than one hit that counts, in [0, 1].
+    #[serde(default)]
+    pub grazing: f64,
+    /// What it is on screen; none but for rays of a scene's camera.
+    #[serde(default)]
+    pub scene: Option<SceneError>,
     /// Time of one frame of rays; none where no driver was timed.
     pub time_ms: Option<Time>,
+    /// Why there is no time.
+    #[serde(default)]
+    pub no_time: Option<String>,
     /// Operations a ray, counted; the mean.
     pub ops: f64,
     /// Texture reads a ray, counted; the mean.
     pub fetches: f64,
+    /// Steps a ray of the reference search in f64; the mean. None for shaders that have no reference.
+    #[serde(default)]
+    pub steps: Option<f64>,
     /// Whether no other point of the same map and angle is both faster and more accurate (p99).
     pub pareto: bool,
     /// The command that makes this point again.
@@ -100,6 +118,47 @@ pub struct ErrorTexels {
     pub over_1: f64,
 }
 
+/// Mean, percentiles and greatest of some values; percentiles are values of the sample.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spread {
+    /// Mean.
+    pub mean: f64,
+    /// Median.
+    pub p50: f64,
+    /// 99th percentile.
+    pub p99: f64,
+    /// Greatest.
+    pub max: f64,
+}
+
+/// Shares of rays whose answer is of another kind than the truth, in [0, 1].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Disagreement {
+    /// More than one texel behind the hit along the ray: it went through the surface.
+    pub missed: f64,
+    /// More than one texel before the hit: it stopped where nothing is.
+    pub early: f64,
+    /// No number. Such answers have no distance and are left out of the errors.
+    pub lost: f64,
+    /// Another status than the truth's: the cap was reached, say.
+    pub status: f64,
+}
+
+/// What an error is in a scene's picture.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SceneError {
+    /// The scene's name.
+    pub scene: String,
+    /// Distances to the nearest hit that counts, on screen, pixels.
+    pub error_px: Spread,
+    /// Differences of colour to the picture that `exact` draws, linear light; none where the technique was not drawn.
+    #[serde(default)]
+    pub colour: Option<Spread>,
+    /// Mean FLIP to the picture that `exact` draws, in [0, 1]; none where the technique was not drawn.
+    #[serde(default)]
+    pub flip: Option<f64>,
+}
+
 /// Times of one job, milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Time {
@@ -130,6 +189,9 @@ pub struct Price {
     pub max: f64,
     /// Time of one frame; none where no driver was timed.
     pub time_ms: Option<Time>,
+    /// Why there is no time.
+    #[serde(default)]
+    pub no_time: Option<String>,
     /// Operations an item, counted; the mean.
     pub ops: f64,
     /// Texture reads an item, counted; the mean.
