@@ -1,5 +1,5 @@
 //! `./x setup --full` fetches what `tools/lock.tsv` pins, refuses what is not that, says what came in its place, and names what it
-//! could not have. Run with a stand-in for Debian's package tools, on a path that has nothing else of the kind.
+//! could not have. Run with stand-ins for the clients of package sources, on a path that has nothing else of the kind.
 
 #![cfg(unix)]
 
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Programs that the scripts need besides bash and Debian's.
-const PLAIN: [&str; 16] = [
+const PLAIN: [&str; 20] = [
     "bash",
     "dirname",
     "awk",
@@ -26,7 +26,14 @@ const PLAIN: [&str; 16] = [
     "tar",
     "sha256sum",
     "printf",
+    "ln",
+    "cp",
+    "gzip",
+    "chmod",
 ];
+
+/// What `dxc` is built of.
+const DXC_PROGRAM: &str = "crates/translate/tools/dxc.cpp";
 
 /// A copy of the scripts with a lock of their own, a cache, and a path.
 struct Place {
@@ -46,7 +53,8 @@ impl Place {
             fs::create_dir_all(place.path(folder)).unwrap();
         }
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        for script in ["x", "tools/full.sh"] {
+        for script in ["x", "tools/full.sh", DXC_PROGRAM] {
+            fs::create_dir_all(place.path(script).parent().unwrap()).unwrap();
             fs::copy(root.join(script), place.path(script)).unwrap();
         }
         for program in PLAIN {
@@ -142,6 +150,41 @@ impl Place {
         said
     }
 
+    /// A package index that has DXC's package, a compiler that makes a program, and a lock that pins the package with a hash;
+    /// without one, with its own.
+    fn with_index(self, hash: Option<&str>) -> Self {
+        let inside = self.path("sdist/parts-1.0");
+        fs::create_dir_all(inside.join("parts/backends")).unwrap();
+        for (file, content) in [
+            ("parts/backends/libdxcompiler_x86_64.so.3.7", "the library"),
+            ("parts/backends/WinAdapter.h", ""),
+            ("parts/backends/dxcapi.h", ""),
+            ("LICENSE", "its terms"),
+        ] {
+            fs::write(inside.join(file), content).unwrap();
+        }
+        let archive = self.path("package.deb");
+        let mut pack = Command::new("tar");
+        pack.arg("-czf").arg(&archive).arg("-C").arg(self.path("sdist"));
+        assert!(pack.arg("parts-1.0").status().unwrap().success());
+        let archive = archive.display();
+        self.program("uname", "echo here");
+        self.program(
+            "python3",
+            &format!(
+                "case \"$*\" in\n  *' download '*) while [ \"$1\" != --dest ]; do shift; done; cp {archive} \"$2/parts-1.0.tar.gz\" ;;\nesac"
+            ),
+        );
+        self.program(
+            "g++",
+            "while [ \"$1\" != -o ]; do shift; done\nprintf '#!/bin/true\\n' >\"$2\"\nchmod +x \"$2\"",
+        );
+        let hash = hash.map_or_else(|| self.hash(), str::to_owned);
+        let line = format!("dxc\tpypi\tparts\t1.0\there\t{hash}\tNCSA\n");
+        fs::write(self.path("tools/lock.tsv"), line).unwrap();
+        self
+    }
+
     /// Everything in the cache's folder of tools, hidden things too.
     fn cached(&self) -> Vec<String> {
         let Ok(entries) = fs::read_dir(self.path(".cache/bossage/tools")) else {
@@ -175,7 +218,7 @@ fn what_is_pinned_is_fetched_once() {
         format!("swiftshader\t1.0\t1.0\t{}\n", place.hash())
     );
     let again = place.setup();
-    assert!(!again.contains("fetching"), "{again}");
+    assert!(!again.contains("fetching swiftshader"), "{again}");
 }
 
 #[test]
@@ -203,7 +246,10 @@ fn where_the_pinned_version_is_gone_what_came_instead_is_said_and_recorded() {
         place.record(),
         format!("swiftshader\t1.0\t2.0\t{}\n", place.hash())
     );
-    assert!(!place.setup().contains("fetching"), "it is not fetched again");
+    assert!(
+        !place.setup().contains("fetching swiftshader"),
+        "it is not fetched again"
+    );
 }
 
 #[test]
@@ -216,6 +262,51 @@ fn without_debian_the_way_to_get_it_is_said() {
         .find(|line| line.contains("DISABLED the second Vulkan driver"));
     assert!(
         disabled.is_some_and(|line| line.contains("libvk_swiftshader.so") && line.contains("Chromium")),
+        "{said}"
+    );
+    assert_eq!(place.cached(), [""; 0]);
+}
+
+#[test]
+fn a_compiler_is_built_linked_and_fetched_once() {
+    let place = Place::new().with_index(None);
+    let said = place.setup();
+    assert!(said.contains("dxc 1.0 (NCSA) is in"), "{said}");
+    assert_eq!(place.cached(), ["bin", "dxc"]);
+    let tools = place.path(".cache/bossage/tools");
+    let library = fs::read_to_string(tools.join("bin/../dxc/lib/libdxcompiler.so")).unwrap();
+    assert_eq!(library, "the library");
+    assert!(
+        tools.join("bin/dxc").is_file(),
+        "a link that leads to the program"
+    );
+    assert!(!place.setup().contains("fetching dxc"), "it is not fetched again");
+}
+
+#[test]
+fn a_compiler_with_another_hash_is_not_built() {
+    let wrong = "0".repeat(64);
+    let place = Place::new().with_index(Some(&wrong));
+    let said = place.setup();
+    assert!(
+        said.contains(&place.hash()) && said.contains("it is not used"),
+        "{said}"
+    );
+    assert!(said.contains("DISABLED route hlsl"), "{said}");
+    assert_eq!(place.cached(), [""; 0]);
+}
+
+#[test]
+fn without_a_compiler_to_build_it_with_the_way_is_said() {
+    let place = Place::new().with_index(None);
+    fs::remove_file(place.path("bin/g++")).unwrap();
+    let said = place.setup();
+    assert!(
+        said.contains("its program is built by g++, which is missing"),
+        "{said}"
+    );
+    assert!(
+        said.contains("DISABLED route hlsl") && said.contains("put a dxc on the PATH"),
         "{said}"
     );
     assert_eq!(place.cached(), [""; 0]);

@@ -6,9 +6,10 @@
 # A folder there is whole or absent. Its `fetched.tsv` says what was wanted, what came, and the hash of that.
 #
 # To add a tool: a line in the lock, its name in `full_tools`, and three functions: `loss_without_TOOL` and `way_to_TOOL` (for the
-# DISABLED line), and `unpack_TOOL PACKAGE FOLDER`, which leaves in the folder just what is needed.
+# DISABLED line), and `unpack_TOOL PACKAGE FOLDER`, which leaves in the folder just what is needed. Programs in the folder's `bin` are
+# linked from `bin` beside the folders, where `bossage` looks for them after the `PATH`.
 
-full_tools="swiftshader"
+full_tools="swiftshader dxc"
 
 tools_folder() { echo "${BOSSAGE_TOOLS:-${XDG_CACHE_HOME:-$HOME/.cache}/bossage/tools}"; }
 
@@ -39,6 +40,7 @@ hash_of() { sha256sum "$1" | cut -d ' ' -f 1; }
 download() {
     case $(locked "$1" source) in
         debian) download_from_debian "$@" ;;
+        pypi) download_from_pypi "$@" ;;
         *) say "setup: $1: tools/lock.tsv names no source that is known" && return 1 ;;
     esac
 }
@@ -50,7 +52,7 @@ download_from_debian() {
     have apt-get || return 1
     package=$(locked "$tool" package)
     version=$(locked "$tool" version)
-    [ "$(dpkg --print-architecture)" = "$(locked "$tool" architecture)" ] || version=
+    is_for_this_machine "$tool" || version=
     if ! apt-cache show "$package" >/dev/null 2>&1; then as_root apt-get update -qq >&2 || return 1; fi
     apt_download "$folder" "$package${version:+=$version}" && return
     as_root apt-get update -qq >&2 || true
@@ -59,10 +61,32 @@ download_from_debian() {
 
 apt_download() { (cd "$1" && apt-get download -qq -o APT::Sandbox::User=root "$2" >/dev/null 2>&1); }
 
+# The pinned version or none: that index drops nothing. Pip itself refuses another hash, before it runs anything of the package.
+download_from_pypi() {
+    local tool=$1 folder=$2
+    have python3 && python3 -m pip --version >/dev/null 2>&1 || return 1
+    is_for_this_machine "$tool" || return 1
+    printf '%s==%s --hash=sha256:%s\n' "$(locked "$tool" package)" "$(locked "$tool" version)" "$(locked "$tool" sha256)" \
+        >"$folder.requirements"
+    python3 -m pip --quiet --disable-pip-version-check download --no-deps --require-hashes \
+        --dest "$folder" --requirement "$folder.requirements" >&2
+}
+
+# Whether a pinned package is one for this processor, in the words of its source.
+is_for_this_machine() {
+    local here
+    case $(locked "$1" source) in
+        debian) here=$(dpkg --print-architecture 2>/dev/null) ;;
+        pypi) here=$(uname -m) ;;
+    esac
+    [ "$here" = "$(locked "$1" architecture)" ]
+}
+
 # The version of a downloaded package.
 version_of() {
     case $(locked "$1" source) in
         debian) dpkg-deb -f "$2" Version ;;
+        pypi) locked "$1" version ;;
     esac
 }
 
@@ -76,12 +100,22 @@ fetch() {
     if fetch_into "$tool" "$work"; then
         rm -rf "${tools:?}/$tool"
         mv "$work/tool" "$tools/$tool"
+        link_programs "$tool"
         say "setup: $tool $got ($(locked "$tool" licence)) is in $tools/$tool"
         rm -rf "$work"
     else
         rm -rf "$work"
         return 1
     fi
+}
+
+link_programs() {
+    local tools program
+    tools=$(tools_folder)
+    for program in "$tools/$1/bin/"*; do
+        [ -x "$program" ] || continue
+        mkdir -p "$tools/bin" && ln -sfn "../$1/bin/${program##*/}" "$tools/bin/${program##*/}"
+    done
 }
 
 # Downloads, checks and unpacks into `$2/tool`; sets `got` for the caller's message.
@@ -94,8 +128,7 @@ fetch_into() {
     wanted=$(locked "$tool" version)
     got=$(version_of "$tool" "$file")
     hash=$(hash_of "$file")
-    if [ "$got" = "$wanted" ] && [ "$hash" != "$(locked "$tool" sha256)" ] \
-        && [ "$(dpkg --print-architecture 2>/dev/null)" = "$(locked "$tool" architecture)" ]; then
+    if [ "$got" = "$wanted" ] && [ "$hash" != "$(locked "$tool" sha256)" ] && is_for_this_machine "$tool"; then
         say "setup: $tool: the package's hash is $hash, not the one in tools/lock.tsv; it is not used"
         return 1
     fi
@@ -140,4 +173,26 @@ show_swiftshader() {
     manifest=$(tools_folder)/swiftshader/vk_swiftshader_icd.json
     if [ -n "${VK_DRIVER_FILES+set}${VK_ICD_FILENAMES+set}${VK_ADD_DRIVER_FILES+set}" ]; then return; fi
     if [ -f "$manifest" ]; then export VK_ADD_DRIVER_FILES="$manifest"; fi
+}
+
+# --- DXC: Microsoft's compiler of HLSL, the library from a package that brings it, the program built here over it ---------
+
+loss_without_dxc() { echo "route hlsl and the external check of HLSL"; }
+
+way_to_dxc() { echo "put a dxc on the PATH, or have python3 with pip and g++ on x86-64 Linux and run ./x setup --full again"; }
+
+# Of the package only the library, the two headers of its interface and the licence are used.
+unpack_dxc() {
+    local package=$1 folder=$2 inside parts
+    have g++ || { say "setup: dxc: its program is built by g++, which is missing"; return 1; }
+    inside=$(locked dxc package)-$(locked dxc version)
+    parts=$inside/$(locked dxc package)/backends
+    mkdir -p "$folder/bin" "$folder/lib" "$folder/include" || return 1
+    member() { tar -xzOf "$package" "$1" >"$folder/$2"; }
+    member "$parts/libdxcompiler_x86_64.so.3.7" lib/libdxcompiler.so \
+        && member "$parts/WinAdapter.h" include/WinAdapter.h \
+        && member "$parts/dxcapi.h" include/dxcapi.h \
+        && member "$inside/LICENSE" LICENSE.package || return 1
+    g++ -std=c++17 -O1 -I "$folder/include" -o "$folder/bin/dxc" crates/translate/tools/dxc.cpp -ldl >&2 || return 1
+    "$folder/bin/dxc" --version >/dev/null
 }

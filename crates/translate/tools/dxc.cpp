@@ -8,7 +8,6 @@
 // library or a file is missing. The library lies in `../lib` beside this program, or where BOSSAGE_DXCOMPILER says.
 //
 // Limits: one input, UTF-8, no include files.
-#define __EMULATE_UUID
 #include "WinAdapter.h"
 #include "dxcapi.h"
 
