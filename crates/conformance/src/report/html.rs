@@ -4,12 +4,10 @@
 //! colours follow the reader's light or dark setting and never carry meaning alone. No cell of the matrix is empty:
 //! what was not run says so.
 
-use std::collections::BTreeSet;
-
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::{CaseResult, Report, Totals};
-use crate::route::Route;
+use super::matrix::{Cell, Matrix, Row};
+use super::{CaseResult, Report};
 use crate::verdict::Verdict;
 
 const STYLE: &str = include_str!("style.css");
@@ -82,60 +80,54 @@ fn summary(report: &Report) -> Markup {
     }
 }
 
-/// Techniques down, routes and adapters across.
 fn matrix(report: &Report) -> Markup {
-    let columns: BTreeSet<(Route, &str)> = report
-        .cases
-        .iter()
-        .map(|c| (c.route, c.adapter.as_str()))
-        .collect();
+    let matrix = Matrix::of(report);
     html! {
         section aria-labelledby="matrix" {
             h2 id="matrix" { "Techniques" }
             div class="scroll" tabindex="0" role="region" aria-labelledby="matrix" {
                 table {
-                    caption { "Gravest verdict, cases and worst error of each technique on each route and adapter" }
+                    caption { "Gravest verdict, cases and worst output of each technique on each route and adapter" }
                     thead { tr {
                         th scope="col" { "technique" }
                         th scope="col" { "form" }
-                        @for (route, adapter) in &columns { th scope="col" { (route) br; small { (adapter) } } }
-                    } }
-                    tbody {
-                        @for ((technique, form), cases) in report.by_technique() {
-                            tr {
-                                th scope="row" { a href=(format!("#{}", anchor(&technique, form.as_deref()))) { (technique) } }
-                                td { (form.as_deref().unwrap_or("one form")) }
-                                @for (route, adapter) in &columns {
-                                    (cell(cases.iter().copied().filter(|c| c.route == *route && c.adapter == *adapter)))
-                                }
-                            }
+                        @for column in &matrix.columns {
+                            th scope="col" { (column.route) br; small { (column.adapter.as_deref().unwrap_or("not run")) } }
                         }
-                    }
+                    } }
+                    tbody { @for row in &matrix.rows { (matrix_row(row)) } }
                 }
             }
         }
     }
 }
 
-fn cell<'a>(cases: impl Iterator<Item = &'a CaseResult>) -> Markup {
-    let cases: Vec<&CaseResult> = cases.collect();
-    if cases.is_empty() {
-        return html! { td class="skip" { "not run" } };
-    }
-    let totals = Totals::of(cases.iter().copied());
-    let gravest = cases
-        .iter()
-        .fold(Verdict::Pass, |gravest, case| gravest.graver(case.verdict));
-    let worst = cases
-        .iter()
-        .filter_map(|case| case.worst.as_ref()?.of_bound)
-        .fold(0.0, f64::max);
+fn matrix_row(row: &Row) -> Markup {
     html! {
-        td class=(gravest.as_str()) {
-            strong { (gravest.label()) } " "
-            (totals.cases) " cases, " (grouped(totals.outputs)) " outputs"
-            @if totals.expected_fail > 0 { ", " (totals.expected_fail) " known defects" }
-            @if worst > 0.0 { br; small { "worst " (percent(worst)) " of the allowed error" } }
+        tr {
+            th scope="row" { a href=(format!("#{}", anchor(&row.technique, row.form.as_deref()))) { (row.technique) } }
+            td { (row.form.as_deref().unwrap_or("one form")) }
+            @for one in &row.cells { (cell(one)) }
+        }
+    }
+}
+
+fn cell(cell: &Cell) -> Markup {
+    if cell.cases == 0 {
+        return html! { td class="skip" { "not run" @if let Some(reason) = &cell.reason { br; small { (reason) } } } };
+    }
+    html! {
+        td class=(cell.verdict.as_str()) {
+            strong { (cell.verdict.label()) } " "
+            (cell.cases) " cases, " (grouped(cell.outputs)) " outputs"
+            @if cell.known_defects > 0 { ", " (cell.known_defects) " known defects" }
+            @if let Some(share) = cell.worst_of_bound {
+                br; small { "worst " (percent(share)) " of the allowed error"
+                    @if let Some(ulp) = cell.worst_ulp { ", " (format!("{ulp:.3}")) " ULP" } }
+            }
+            @if let Some(place) = &cell.place {
+                br; small { "in " code { (place.case) } ", output " (place.output) " of " code { (place.input) } }
+            }
         }
     }
 }

@@ -5,6 +5,7 @@
 use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
+use super::matrix::Matrix;
 use super::{CaseResult, Report, SCHEMA, Totals};
 use crate::environment::Environment;
 use crate::error::Error;
@@ -56,6 +57,7 @@ struct Document<'a> {
     schema: u32,
     environment: &'a Environment,
     totals: Totals,
+    matrix: Matrix,
     cases: &'a [CaseResult],
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     heats: &'a [Heat],
@@ -70,6 +72,7 @@ pub fn write(report: &Report) -> Result<String, Error> {
         schema: SCHEMA,
         environment: &report.environment,
         totals: report.totals(),
+        matrix: Matrix::of(report),
         cases: &report.cases,
         heats: &report.heats,
     };

@@ -6,6 +6,7 @@ mod heat;
 pub mod html;
 pub mod json;
 pub mod junit;
+pub mod matrix;
 
 use std::collections::BTreeMap;
 

@@ -1,10 +1,12 @@
 //! Reports of a made-up run: formats, links, and nothing silently empty.
 
+use super::matrix::Matrix;
 use super::{CaseResult, Report, html, json, junit};
 use crate::bound::Bound;
 use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected, Worst};
 use crate::environment::{Adapter, Environment};
+use crate::machines::NotRun;
 use crate::route::Route;
 use crate::verdict::Verdict;
 
@@ -58,6 +60,10 @@ pub(crate) fn sample() -> Report {
     Report::new(
         Environment {
             adapters: vec![adapter],
+            not_run: vec![NotRun {
+                route: Route::Glsl,
+                reason: "get glslang".to_owned(),
+            }],
             ..Environment::of(&[])
         },
         cases,
@@ -131,12 +137,68 @@ fn json_holds_the_promised_keys_and_survives_numbers_that_json_lacks() {
 }
 
 #[test]
+fn no_cell_of_the_matrix_is_empty() {
+    let matrix = Matrix::of(&sample());
+    let labels: Vec<String> = matrix.columns.iter().map(|column| column.label()).collect();
+    assert_eq!(
+        labels,
+        ["wgsl on llvmpipe <1>", "spirv on llvmpipe <1>", "glsl, not run"]
+    );
+    for row in &matrix.rows {
+        assert_eq!(row.cells.len(), 3, "{}", row.technique);
+        for cell in &row.cells {
+            assert_eq!(cell.reason.is_none(), cell.verdict == Verdict::Pass, "{cell:?}");
+            assert_eq!(cell.place.is_none(), cell.cases == 0, "{cell:?}");
+        }
+        assert_eq!(row.cells[2].reason.as_deref(), Some("get glslang"));
+    }
+}
+
+#[test]
+fn a_cell_names_the_worst_output_of_its_gravest_case() {
+    let mut report = sample();
+    let within = |edge: f32, technique: &str| CaseResult {
+        id: CaseId::new(technique, Some("published"), "random").with("n", edge),
+        worst: worst(edge),
+        ..case(technique, Route::Wgsl, Verdict::Pass)
+    };
+    report.cases.extend([
+        within(1.01, "dot3"),
+        within(1.09, "blinn_phong"),
+        within(1.02, "blinn_phong"),
+    ]);
+    let matrix = Matrix::of(&report);
+    let at = |technique: &str| {
+        let row = matrix.rows.iter().find(|row| row.technique == technique).unwrap();
+        row.cells[0].clone()
+    };
+    let (passed, failed) = (at("blinn_phong"), at("dot3"));
+    assert_eq!((passed.verdict, passed.cases), (Verdict::Pass, 3));
+    assert_eq!(passed.place.unwrap().case, "blinn_phong/published/random:n=1.09");
+    // 0.09 above 1, where an ULP is 2⁻²³.
+    let ulps = f64::from(1.09f32 - 1.0) * 2f64.powi(23);
+    assert!(
+        (passed.worst_ulp.unwrap() - ulps).abs() < 1.0,
+        "{:?}",
+        passed.worst_ulp
+    );
+    assert_eq!(failed.verdict, Verdict::Fail);
+    assert_eq!(failed.place.unwrap().case, "dot3/published/edge:fn=it's");
+}
+
+#[test]
 fn junit_has_a_suite_a_route_and_one_failure() {
     let xml = junit::write(&sample()).unwrap();
-    assert_eq!(xml.matches("<testsuite ").count(), 2);
-    assert_eq!(xml.matches("<testcase ").count(), 5);
-    assert_eq!(xml.matches("<failure ").count(), 1);
-    assert_eq!(xml.matches("<skipped ").count(), 1);
+    let (matrix, cases) = xml.split_once("</testsuite>").unwrap();
+    assert_eq!(cases.matches("<testsuite ").count(), 2);
+    assert_eq!(cases.matches("<testcase ").count(), 5);
+    assert_eq!(cases.matches("<failure ").count(), 1);
+    assert_eq!(cases.matches("<skipped ").count(), 1);
+    // Four techniques on two routes and one that nothing runs: a failure, and skips but for the four that ran.
+    assert_eq!(matrix.matches("<testcase ").count(), 12);
+    assert_eq!(matrix.matches("<failure ").count(), 1);
+    assert_eq!(matrix.matches("<skipped ").count(), 8);
+    assert!(matrix.contains("glsl, not run") && matrix.contains("get glslang"));
     assert!(xml.contains("run again: bossage conform"));
 }
 
