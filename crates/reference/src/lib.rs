@@ -57,6 +57,7 @@ pub mod relaxed_cone_step;
 pub mod relief;
 pub mod relief_grazing;
 pub mod relief_ray;
+pub mod relief_search;
 pub mod relief_truth;
 pub mod self_shadow;
 pub mod soft_shadow;
