@@ -15,8 +15,16 @@ pub(crate) fn texture(job: &str, data: &TextureData) -> Result<Texture, Error> {
         TextureDimension::Cube => Dimension::Cube,
     };
     let format = match data.format {
+        JobFormat::R8Unorm => TexelFormat::R8Unorm,
+        JobFormat::R16Unorm => TexelFormat::R16Unorm,
+        JobFormat::Rg8Unorm => TexelFormat::Rg8Unorm,
+        JobFormat::Rg8Snorm => TexelFormat::Rg8Snorm,
+        JobFormat::Rg16Unorm => TexelFormat::Rg16Unorm,
+        JobFormat::Rg16Snorm => TexelFormat::Rg16Snorm,
         JobFormat::Rgba8Unorm => TexelFormat::Rgba8Unorm,
+        JobFormat::Rgba8Snorm => TexelFormat::Rgba8Snorm,
         JobFormat::Rgba16Unorm => TexelFormat::Rgba16Unorm,
+        JobFormat::Rgba16Snorm => TexelFormat::Rgba16Snorm,
         JobFormat::Rgba32Float => TexelFormat::Rgba32Float,
         JobFormat::R32Float => TexelFormat::R32Float,
     };

@@ -4,13 +4,29 @@
 
 use crate::error::Error;
 
-/// Texel formats.
+/// Texel formats. Those of 16-bit integers not every device has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum TexelFormat {
+    /// One byte, read as byte / 255.
+    R8Unorm,
+    /// One 16-bit integer, read as integer / 65535.
+    R16Unorm,
+    /// Two bytes, each read as byte / 255.
+    Rg8Unorm,
+    /// Two signed bytes, each read as byte / 127, at least −1.
+    Rg8Snorm,
+    /// Two 16-bit integers, each read as integer / 65535.
+    Rg16Unorm,
+    /// Two signed 16-bit integers, each read as integer / 32767, at least −1.
+    Rg16Snorm,
     /// Four bytes, each read as byte / 255.
     Rgba8Unorm,
-    /// Four 16-bit integers, each read as integer / 65535, which not every device has.
+    /// Four signed bytes, each read as byte / 127, at least −1.
+    Rgba8Snorm,
+    /// Four 16-bit integers, each read as integer / 65535.
     Rgba16Unorm,
+    /// Four signed 16-bit integers, each read as integer / 32767, at least −1.
+    Rgba16Snorm,
     /// Four floats.
     Rgba32Float,
     /// One float.
@@ -22,8 +38,10 @@ impl TexelFormat {
     #[must_use]
     pub fn texel_bytes(self) -> usize {
         match self {
-            Self::Rgba8Unorm | Self::R32Float => 4,
-            Self::Rgba16Unorm => 8,
+            Self::R8Unorm => 1,
+            Self::R16Unorm | Self::Rg8Unorm | Self::Rg8Snorm => 2,
+            Self::Rgba8Unorm | Self::Rgba8Snorm | Self::Rg16Unorm | Self::Rg16Snorm | Self::R32Float => 4,
+            Self::Rgba16Unorm | Self::Rgba16Snorm => 8,
             Self::Rgba32Float => 16,
         }
     }
@@ -33,14 +51,48 @@ impl TexelFormat {
     pub fn is_float(self) -> bool {
         match self {
             Self::Rgba32Float | Self::R32Float => true,
-            Self::Rgba8Unorm | Self::Rgba16Unorm => false,
+            Self::R8Unorm
+            | Self::R16Unorm
+            | Self::Rg8Unorm
+            | Self::Rg8Snorm
+            | Self::Rg16Unorm
+            | Self::Rg16Snorm
+            | Self::Rgba8Unorm
+            | Self::Rgba8Snorm
+            | Self::Rgba16Unorm
+            | Self::Rgba16Snorm => false,
+        }
+    }
+
+    /// Whether its components are 16-bit normalised integers, which not every device has.
+    #[must_use]
+    pub fn is_norm16(self) -> bool {
+        match self {
+            Self::R16Unorm | Self::Rg16Unorm | Self::Rg16Snorm | Self::Rgba16Unorm | Self::Rgba16Snorm => {
+                true
+            }
+            Self::R8Unorm
+            | Self::Rg8Unorm
+            | Self::Rg8Snorm
+            | Self::Rgba8Unorm
+            | Self::Rgba8Snorm
+            | Self::Rgba32Float
+            | Self::R32Float => false,
         }
     }
 
     pub(crate) fn wgpu(self) -> wgpu::TextureFormat {
         match self {
+            Self::R8Unorm => wgpu::TextureFormat::R8Unorm,
+            Self::R16Unorm => wgpu::TextureFormat::R16Unorm,
+            Self::Rg8Unorm => wgpu::TextureFormat::Rg8Unorm,
+            Self::Rg8Snorm => wgpu::TextureFormat::Rg8Snorm,
+            Self::Rg16Unorm => wgpu::TextureFormat::Rg16Unorm,
+            Self::Rg16Snorm => wgpu::TextureFormat::Rg16Snorm,
             Self::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+            Self::Rgba8Snorm => wgpu::TextureFormat::Rgba8Snorm,
             Self::Rgba16Unorm => wgpu::TextureFormat::Rgba16Unorm,
+            Self::Rgba16Snorm => wgpu::TextureFormat::Rgba16Snorm,
             Self::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
             Self::R32Float => wgpu::TextureFormat::R32Float,
         }
@@ -172,7 +224,9 @@ impl TextureData {
         Ok(self)
     }
 
-    fn plane(width: u32, height: u32, format: TexelFormat, bytes: &[u8]) -> Self {
+    /// A plane of one level: rows from v = 0 on, tightly packed. [`Self::validate`] says whether the bytes are as many as they should be.
+    #[must_use]
+    pub fn plane(width: u32, height: u32, format: TexelFormat, bytes: &[u8]) -> Self {
         Self {
             width,
             height,

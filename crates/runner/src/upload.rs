@@ -2,7 +2,7 @@
 
 use crate::device::Device;
 use crate::error::Error;
-use crate::texture::{Filter, SamplerSettings, TexelFormat, TextureData, TextureDimension};
+use crate::texture::{Filter, SamplerSettings, TextureData, TextureDimension};
 
 /// A buffer with these bytes (a multiple of four), which can be read back.
 pub(crate) fn buffer(device: &Device, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
@@ -24,7 +24,7 @@ pub(crate) fn texture(
     data: &TextureData,
 ) -> Result<wgpu::TextureView, Error> {
     data.validate(name)?;
-    if data.format == TexelFormat::Rgba16Unorm {
+    if data.format.is_norm16() {
         let feature = wgpu::Features::TEXTURE_FORMAT_16BIT_NORM;
         device.require(job, feature, "textures of 16-bit normalised integers")?;
     }

@@ -14,3 +14,5 @@ mod flat;
 #[path = "../../../runner/tests/adapter/render.rs"]
 mod render;
 mod support;
+#[path = "../../../runner/tests/adapter/texels.rs"]
+mod texels;

@@ -3,7 +3,7 @@
 //! Without an adapter these tests are skipped, each saying so with a running number; where `BOSSAGE_REQUIRE` lists
 //! `lavapipe`, they fail instead.
 //!
-//! `blending`, `compute`, `cubes` and `render` ask no more than what every `Machine` answers: the machine without a driver runs
+//! `blending`, `compute`, `cubes`, `render` and `texels` ask no more than what every `Machine` answers: the machine without a driver runs
 //! the very same tests.
 
 mod blending;
@@ -16,4 +16,5 @@ mod flat;
 mod render;
 mod routes;
 mod support;
+mod texels;
 mod timing;
