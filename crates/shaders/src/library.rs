@@ -21,6 +21,8 @@ const VERTEX_FILE: &str = "entry/surface_vertex.wesl";
 const FRAGMENT_FILE: &str = "entry/surface_fragment.wesl";
 /// The module path that a probe's written root takes.
 const PROBE_ROOT: &str = "entry/probe.wesl";
+/// The module path of text that is written elsewhere; no file of the library lies there.
+const TEXT_ROOT: &str = "written/kernel.wesl";
 
 /// One plain WGSL module.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -167,16 +169,45 @@ impl Library {
     /// [`Error::UnknownProbe`], or when the sources do not assemble.
     pub fn assemble_probe(&self, id: ProbeId) -> Result<AssembledShader> {
         let probe = id.probe().ok_or_else(|| Error::UnknownProbe(id.to_string()))?;
-        let root = Source::parse(PROBE_ROOT, &probe_entry::source(probe))?;
-        let path = path_of_file(PathOrigin::Absolute, PROBE_ROOT);
+        self.assemble_root(PROBE_ROOT, &probe_entry::source(probe), probe.entry)
+    }
+
+    /// A compute module whose root is written elsewhere: WESL text that imports from this library as its own files do
+    /// (`package::lib::normalise::normalise`), stripped to what `entry` needs. `name` is the module's.
+    ///
+    /// ```
+    /// let library = bossage_shaders::Library::embedded()?;
+    /// let text = "
+    ///     import package::lib::lambert::lambert;
+    ///     @group(0) @binding(0) var<storage, read_write> outputs: array<f32>;
+    ///     @compute @workgroup_size(1) fn lit() { outputs[0] = lambert(vec3f(0.0, 0.0, 1.0), vec3f(0.6, 0.0, 0.8)); }";
+    /// let kernel = library.assemble_text("lit", text, "lit")?;
+    /// assert!(kernel.wgsl.contains("fn lambert("));
+    /// # Ok::<(), bossage_shaders::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// When the text has a syntax error or imports what does not exist, with line and column.
+    pub fn assemble_text(&self, name: &str, text: &str, entry: &str) -> Result<AssembledShader> {
+        let assembled = self.assemble_root(TEXT_ROOT, text, entry)?;
+        Ok(AssembledShader {
+            name: name.to_owned(),
+            ..assembled
+        })
+    }
+
+    /// A root that is no file of the library, for as long as it is assembled.
+    fn assemble_root(&self, file: &str, text: &str, entry: &str) -> Result<AssembledShader> {
+        let root = Source::parse(file, text)?;
+        let path = path_of_file(PathOrigin::Absolute, file);
         check::imports_resolve(&root, &path, &self.sources)?;
         let mut trees = self.borrow_trees()?;
         trees.insert(path.to_string(), root.syntax);
-        let assembled = self.run(&trees, path.clone(), probe.entry, &[]);
+        let assembled = self.run(&trees, path.clone(), entry, &[]);
         trees.remove(&path.to_string());
         self.give_back(trees);
-        let mut shader = named(probe.entry.to_owned(), Vec::new(), assembled?);
-        shader.modules.insert(0, PROBE_ROOT.to_owned());
+        let mut shader = named(entry.to_owned(), Vec::new(), assembled?);
+        shader.modules.insert(0, file.to_owned());
         Ok(shader)
     }
 
