@@ -68,6 +68,46 @@ fn the_example_passes_on_every_route_and_is_reported() {
     assert!(fs::read_to_string(html).unwrap().contains("tone_map"));
 }
 
+/// A file with a vertex and a fragment stage, which marches through a texture with derivatives: both are run by themselves.
+#[test]
+fn stages_that_are_drawn_pass_on_every_route() {
+    let example = repository("examples/user_shader.wgsl");
+    let run = bossage(&[
+        "conform",
+        "--shader",
+        text(&example),
+        "--inputs",
+        "8",
+        "--json",
+        "-",
+    ])
+    .exits(0);
+    let report = parsed(&run.stdout);
+    let cases = report["cases"].as_array().unwrap();
+    for entry in ["vertex_main", "fragment_main"] {
+        let of = |route: &str| {
+            let id = format!("ranges:entry={entry};");
+            let is_it = |case: &&serde_json::Value| {
+                case["route"] == route && case["id"].as_str().unwrap().contains(&id)
+            };
+            cases.iter().find(is_it)
+        };
+        let routes: &[&str] = if has_adapter() {
+            &["embedded", "wgsl", "spirv"]
+        } else {
+            &["embedded"]
+        };
+        for route in routes {
+            let case = of(route).unwrap_or_else(|| panic!("{entry} on {route}: {report}"));
+            assert_eq!(case["verdict"], "pass", "{case}");
+            assert!(
+                case["undecided"].as_u64().unwrap() * 2 < case["outputs"].as_u64().unwrap(),
+                "{case}"
+            );
+        }
+    }
+}
+
 #[test]
 fn the_command_that_a_report_names_runs_the_same_again() {
     let folder = folder(&[("sum.wgsl", SUM)]);
@@ -183,12 +223,12 @@ fn a_hang_is_a_verdict_and_the_rest_goes_on() {
 
 #[test]
 fn what_is_wrong_with_the_call_exits_with_2() {
-    let vertex = "@vertex fn place(@location(0) p: vec4f) -> @builtin(position) vec4f { return p; }";
+    let empty = "fn helper(x: f32) -> f32 { return x; }";
     let silent = "@group(0) @binding(0) var<storage, read> a: array<f32>;
         @compute @workgroup_size(1) fn main() { let x = a[0]; }";
     let folder = folder(&[
         ("sum.wgsl", SUM),
-        ("vertex.wgsl", vertex),
+        ("empty.wgsl", empty),
         ("silent.wgsl", silent),
         ("broken.wgsl", "@compute fn main() { let x = ; }"),
         (
@@ -234,7 +274,7 @@ fn what_is_wrong_with_the_call_exits_with_2() {
     wrong("sum.wgsl", &["--scene", "a.toml"], &["--scene"]);
     wrong("sum.wgsl", &["--route", "spriv"], &["did you mean spirv?"]);
     wrong("sum.wgsl", &["nothing"], &["no case", "nothing"]);
-    wrong("vertex.wgsl", &[], &["vertex.wgsl", "place (vertex)"]);
+    wrong("empty.wgsl", &[], &["empty.wgsl", "entry point"]);
     wrong("broken.wgsl", &[], &["broken.wgsl:1:", "^"]);
     wrong("missing.wgsl", &[], &["missing.wgsl"]);
     wrong("scene.toml", &[], &["is a scene"]);

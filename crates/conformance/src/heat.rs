@@ -19,7 +19,7 @@ use crate::module::Module;
 use crate::oracle;
 use crate::report::json::Number;
 use crate::route::Route;
-use crate::user::expect::{self, Expected, Unknown};
+use crate::user::expect::At;
 use crate::user::{Plan, Ready, judge};
 
 /// Random inputs of a probe among which the widest is looked for.
@@ -91,7 +91,7 @@ pub(crate) fn of_entry(
     plan: &Plan,
     ready: &Ready,
     text: &str,
-    expected: &[Result<Expected, Unknown>],
+    expected: &[At],
     wanted: &Wanted,
 ) -> Result<Option<Heat>, Error> {
     let named = match wanted {
@@ -101,7 +101,7 @@ pub(crate) fn of_entry(
     };
     let count = expected
         .iter()
-        .flatten()
+        .filter_map(|one| one.as_ref().as_ref().ok())
         .map(|one| one.allowed.len())
         .max()
         .unwrap_or(0);
@@ -116,7 +116,9 @@ pub(crate) fn of_entry(
     }
     let mut widest: Option<(f64, usize, usize)> = None;
     for (at, expected) in expected.iter().enumerate() {
-        let Ok(expected) = expected else { continue };
+        let Ok(expected) = expected.as_ref() else {
+            continue;
+        };
         for &output in &outputs {
             let Scalar::Float(_) = expected.allowed[output] else {
                 continue;
@@ -133,12 +135,14 @@ pub(crate) fn of_entry(
     let Some((ulps, at, output)) = widest else {
         return Ok(None);
     };
-    let point = &ready.points[at];
+    let points = &ready.points[at];
     let evaluate = |limits: &Limits| {
-        expect::allowed(ready, point, limits).map(|all| match all[output] {
-            Scalar::Float(interval) => interval,
-            Scalar::Int(..) | Scalar::Bool(_) => Interval::unknown(bossage_bounds::Flags::UNDECIDED),
-        })
+        ready
+            .evaluate::<Accept>(points, limits)
+            .map(|all| match all[output] {
+                Scalar::Float(interval) => interval,
+                Scalar::Int(..) | Scalar::Bool(_) => Interval::unknown(bossage_bounds::Flags::UNDECIDED),
+            })
     };
     let found = attribution(&ready.program, text, &ready.limits, evaluate)
         .ok()
@@ -146,7 +150,7 @@ pub(crate) fn of_entry(
     let name = ready.name(output);
     Ok(found.map(|found| Heat {
         subject: format!("{}/{}", plan.shader, plan.entry),
-        inputs: ready.named_inputs(point, &name),
+        inputs: ready.named_inputs(&points[ready.lane(output)], &name),
         output: name,
         interval: ends(found.interval),
         ulps,

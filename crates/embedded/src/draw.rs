@@ -1,7 +1,7 @@
 //! One draw: vertices, triangles, coverage, fragments.
 
 use bossage_bounds::F32;
-use bossage_runner::{Blend, Cull, Draw, Error, RenderJob, Shader, resolve};
+use bossage_runner::{Blend, Cull, Draw, Error, RenderJob, Shader, TargetFormat, resolve};
 use bossage_translate::Stage;
 
 use crate::bind::bindings;
@@ -73,13 +73,19 @@ fn check(job: &RenderJob<'_>, draw: &Draw<'_>) -> Result<(), Error> {
         let Some(location) = output.location else {
             continue;
         };
-        if location as usize >= job.targets.len() {
+        let Some(target) = job.targets.get(location as usize) else {
             let targets = job.targets.len();
             let problem = format!("it goes to @location({location}), the job has {targets} targets");
             return Err(misfit(entry, &output.name, problem));
-        }
-        if !matches!(output.ty.as_str(), "vec4f" | "vec4<f32>") {
-            let problem = format!("a target takes vec4<f32>, it is {}", output.ty);
+        };
+        let scalar = match target.format {
+            TargetFormat::Rgba32Float | TargetFormat::Rgba8Unorm => "f32",
+            TargetFormat::Rgba32Uint => "u32",
+            TargetFormat::Rgba32Sint => "i32",
+        };
+        let short = format!("vec4{}", &scalar[..1]);
+        if output.ty != short && output.ty != format!("vec4<{scalar}>") {
+            let problem = format!("the target takes vec4<{scalar}>, it is {}", output.ty);
             return Err(misfit(entry, &output.name, problem));
         }
     }

@@ -240,10 +240,9 @@ impl Shaded {
         Some(depth.clamp(0.0, 1.0) as f32)
     }
 
-    /// The colour at a location.
-    pub(crate) fn colour(&self, location: u32, fragment: usize) -> Option<[f64; 4]> {
+    /// The colour, or the integers, at a location.
+    pub(crate) fn colour(&self, location: u32, fragment: usize) -> Option<[Scalar<F32>; 4]> {
         let column = self.0.columns.get(&Slot::Location(location, 0))?;
-        let scalars = column.of(fragment).first_chunk::<4>()?;
-        Some(scalars.map(|scalar| scalar.float().unwrap_or(f64::NAN)))
+        column.of(fragment).first_chunk::<4>().copied()
     }
 }

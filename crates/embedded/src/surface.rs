@@ -1,5 +1,6 @@
 //! Targets and the depth buffer.
 
+use bossage_bounds::{F32, Scalar};
 use bossage_runner::{Blend, Clear, Depth, Picture, RenderTarget, SENTINEL_BITS, TargetFormat};
 
 /// A target with its pixels.
@@ -22,12 +23,18 @@ impl Surface {
         }
     }
 
-    /// A draw's colour meets a pixel.
-    pub(crate) fn write(&mut self, at: usize, colour: [f64; 4], blend: Blend) {
+    /// A draw's colour meets a pixel; integers replace it, whatever the blending.
+    pub(crate) fn write(&mut self, at: usize, colour: [Scalar<F32>; 4], blend: Blend) {
         let Some(pixel) = self.pixels.get_mut(at) else {
             return;
         };
         for (kept, new) in pixel.iter_mut().zip(colour) {
+            if self.format.is_integer() {
+                // The low 32 bits are those of a signed and of an unsigned integer alike.
+                *kept = f32::from_bits(new.int().unwrap_or_default() as u32);
+                continue;
+            }
+            let new = new.float().unwrap_or(f64::NAN);
             *kept = stored(self.format, blended(self.format, f64::from(*kept), new, blend));
         }
     }
@@ -48,7 +55,8 @@ fn blended(format: TargetFormat, kept: f64, new: f64, blend: Blend) -> f64 {
     // Bytes clamp a colour before it is blended.
     let new = match (format, blend) {
         (TargetFormat::Rgba8Unorm, Blend::Add | Blend::Multiply) => unit(new),
-        (TargetFormat::Rgba8Unorm, Blend::Replace) | (TargetFormat::Rgba32Float, _) => new,
+        (TargetFormat::Rgba8Unorm, Blend::Replace)
+        | (TargetFormat::Rgba32Float | TargetFormat::Rgba32Uint | TargetFormat::Rgba32Sint, _) => new,
     };
     match blend {
         Blend::Replace => new,
@@ -69,7 +77,7 @@ fn unit(value: f64) -> f64 {
 /// A value as the format keeps it.
 fn stored(format: TargetFormat, value: f64) -> f32 {
     match format {
-        TargetFormat::Rgba32Float => value as f32,
+        TargetFormat::Rgba32Float | TargetFormat::Rgba32Uint | TargetFormat::Rgba32Sint => value as f32,
         TargetFormat::Rgba8Unorm => ((unit(value) * 255.0).round() as f32) / 255.0,
     }
 }
@@ -99,7 +107,7 @@ mod tests {
     fn after(target: &RenderTarget, writes: &[([f64; 4], Blend)]) -> [f32; 4] {
         let mut surface = Surface::new(target, 1);
         for (colour, blend) in writes {
-            surface.write(0, *colour, *blend);
+            surface.write(0, colour.map(Scalar::Float), *blend);
         }
         surface.pixels[0]
     }
@@ -123,6 +131,18 @@ mod tests {
         assert_eq!(multiplied, [6.0, -3.0, -0.25, f32::INFINITY]);
         let added = after(&target, &[([0.1_f32, 1.0, 0.0, 0.0].map(f64::from), Blend::Add)]);
         assert_eq!(added, [2.0 + 0.1_f32, 0.0, 0.5, 1e30]);
+    }
+
+    #[test]
+    fn integers_are_kept_to_the_bit() {
+        let mut surface = Surface::new(&RenderTarget::integers(true), 1);
+        surface.write(
+            0,
+            [-1, 5, i128::from(i32::MIN), 0].map(|n| Scalar::Int(n, n)),
+            Blend::Replace,
+        );
+        let bits = surface.pixels[0].map(f32::to_bits);
+        assert_eq!(bits, [u32::MAX, 5, 1 << 31, 0]);
     }
 
     #[test]

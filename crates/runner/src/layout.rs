@@ -5,7 +5,7 @@ use bossage_translate::manifest::{Binding, Entry, Kind, Texture, Varying};
 use crate::error::Error;
 use crate::texture::TextureDimension;
 
-/// A value at a location: a vertex attribute or a fragment output, of 32-bit floats.
+/// A vertex attribute at a location, of 32-bit floats.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Located {
     pub(crate) name: String,
@@ -35,6 +35,30 @@ pub(crate) fn located(entry: &Entry, values: &[Varying]) -> Result<Vec<Located>,
     let mut list = with_location.map(read).collect::<Result<Vec<_>, Error>>()?;
     list.sort_by_key(|value| value.location);
     Ok(list)
+}
+
+/// The fragment outputs that have a location, in the order of their locations: floats or integers of 32 bits.
+pub(crate) fn outputs(entry: &Entry) -> Result<Vec<(&Varying, u32)>, Error> {
+    let located = entry
+        .outputs
+        .iter()
+        .filter_map(|output| output.location.map(|location| (output, location)));
+    let mut list: Vec<(&Varying, u32)> = located.collect();
+    if let Some((odd, _)) = list.iter().find(|(output, _)| !fits_a_target(&output.ty)) {
+        let problem = format!("its type `{}` is not of 32-bit floats or integers", odd.ty);
+        return Err(misfit(entry, &odd.name, problem));
+    }
+    list.sort_by_key(|(_, location)| *location);
+    Ok(list)
+}
+
+/// Whether a fragment output of this type is kept in a target.
+fn fits_a_target(ty: &str) -> bool {
+    let as_floats = ty
+        .replace("<u32>", "f")
+        .replace("<i32>", "f")
+        .replace(['u', 'i'], "f");
+    float_components(&as_floats).is_some()
 }
 
 /// How many floats a WGSL type of 32-bit floats has, unless it is another type.
@@ -143,6 +167,12 @@ mod tests {
         }
         for ty in ["u32", "vec2u", "vec2<i32>", "mat2x2<f32>", "vec5f", "f16"] {
             assert_eq!(float_components(ty), None, "{ty}");
+        }
+        for ty in ["u32", "vec2u", "vec2<i32>", "vec4<f32>"] {
+            assert!(fits_a_target(ty), "{ty}");
+        }
+        for ty in ["mat2x2<f32>", "vec5u", "f16", "vec4<bool>"] {
+            assert!(!fits_a_target(ty), "{ty}");
         }
     }
 }

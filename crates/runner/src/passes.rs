@@ -130,12 +130,9 @@ impl Draw<'_> {
     /// For each target whether the fragment stage has an output of its location.
     fn written(&self, targets: usize) -> Result<Vec<bool>, Error> {
         let mut written = vec![false; targets];
-        for output in layout::located(self.fragment.entry, &self.fragment.entry.outputs)? {
-            let Some(target) = written.get_mut(output.location as usize) else {
-                let problem = format!(
-                    "it goes to @location({}), the job has {targets} targets",
-                    output.location
-                );
+        for (output, location) in layout::outputs(self.fragment.entry)? {
+            let Some(target) = written.get_mut(location as usize) else {
+                let problem = format!("it goes to @location({location}), the job has {targets} targets");
                 return Err(layout::misfit(self.fragment.entry, &output.name, problem));
             };
             *target = true;

@@ -11,7 +11,7 @@ pub struct Picture {
     pub height: u32,
     /// What they were kept in.
     pub format: TargetFormat,
-    /// The pixels. Of a target of bytes: byte / 255, correctly rounded.
+    /// The pixels. Of a target of bytes: byte / 255, correctly rounded; of integers: floats of their bits ([`f32::to_bits`]).
     pub pixels: Vec<[f32; 4]>,
 }
 
@@ -34,11 +34,11 @@ impl Picture {
         self.pixels.iter().map(is_written).collect()
     }
 
-    /// The bytes that a target of bytes held; `None` for floats.
+    /// The bytes that a target of bytes held; `None` for floats and integers.
     #[must_use]
     pub fn codes(&self) -> Option<Vec<[u8; 4]>> {
         match self.format {
-            TargetFormat::Rgba32Float => None,
+            TargetFormat::Rgba32Float | TargetFormat::Rgba32Uint | TargetFormat::Rgba32Sint => None,
             // The nearest whole number of (byte / 255) · 255 is the byte: two roundings of 2⁻²⁴ are far below a half of 255.
             TargetFormat::Rgba8Unorm => {
                 let codes = |pixel: &[f32; 4]| pixel.map(|value| (value * 255.0).round() as u8);

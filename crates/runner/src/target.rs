@@ -14,6 +14,10 @@ pub enum TargetFormat {
     Rgba32Float,
     /// Four bytes, each clamped to [0, 1] and rounded to the nearest 1/255, after every draw.
     Rgba8Unorm,
+    /// Four unsigned integers of 32 bits, for a shader's output of that kind. A [`Picture`](crate::Picture) has their bits.
+    Rgba32Uint,
+    /// Four signed ones.
+    Rgba32Sint,
 }
 
 impl TargetFormat {
@@ -21,7 +25,7 @@ impl TargetFormat {
     #[must_use]
     pub fn pixel_bytes(self) -> u32 {
         match self {
-            Self::Rgba32Float => 16,
+            Self::Rgba32Float | Self::Rgba32Uint | Self::Rgba32Sint => 16,
             Self::Rgba8Unorm => 4,
         }
     }
@@ -35,6 +39,17 @@ impl TargetFormat {
         match self {
             Self::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
             Self::Rgba8Unorm => wgpu::TextureFormat::Rgba8Unorm,
+            Self::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
+            Self::Rgba32Sint => wgpu::TextureFormat::Rgba32Sint,
+        }
+    }
+
+    /// Whether its pixels are integers of 32 bits.
+    #[must_use]
+    pub fn is_integer(self) -> bool {
+        match self {
+            Self::Rgba32Uint | Self::Rgba32Sint => true,
+            Self::Rgba32Float | Self::Rgba8Unorm => false,
         }
     }
 
@@ -42,7 +57,7 @@ impl TargetFormat {
     pub(crate) fn pixels(self, bytes: &[u8]) -> Vec<[f32; 4]> {
         let float = |word: &[u8; 4]| f32::from_le_bytes(*word);
         match self {
-            Self::Rgba32Float => bytes
+            Self::Rgba32Float | Self::Rgba32Uint | Self::Rgba32Sint => bytes
                 .as_chunks::<4>()
                 .0
                 .as_chunks::<4>()
@@ -65,7 +80,7 @@ impl TargetFormat {
 pub enum Clear {
     /// A colour.
     Colour([f32; 4]),
-    /// The sentinel in every component; for targets of floats.
+    /// The sentinel's bits in every component; for targets of floats and of integers.
     Sentinel,
 }
 
@@ -88,6 +103,19 @@ impl RenderTarget {
         }
     }
 
+    /// A target of integers that holds the sentinel's bits first.
+    #[must_use]
+    pub fn integers(signed: bool) -> Self {
+        Self {
+            format: if signed {
+                TargetFormat::Rgba32Sint
+            } else {
+                TargetFormat::Rgba32Uint
+            },
+            clear: Clear::Sentinel,
+        }
+    }
+
     /// A target of bytes that holds a colour first, each component in [0, 1].
     #[must_use]
     pub fn bytes(colour: [f32; 4]) -> Self {
@@ -100,10 +128,14 @@ impl RenderTarget {
     /// Checks that the format can hold what the target is cleared to.
     ///
     /// # Errors
-    /// [`Error::Target`] for a sentinel, or a colour outside of [0, 1], in a target of bytes.
+    /// [`Error::Target`] for a sentinel, or a colour outside of [0, 1], in a target of bytes, and for a colour in one of integers.
     pub fn validate(&self, job: &str, location: usize) -> Result<(), Error> {
         let problem = match (self.format, self.clear) {
-            (TargetFormat::Rgba32Float, _) => return Ok(()),
+            (TargetFormat::Rgba32Float, _)
+            | (TargetFormat::Rgba32Uint | TargetFormat::Rgba32Sint, Clear::Sentinel) => return Ok(()),
+            (TargetFormat::Rgba32Uint | TargetFormat::Rgba32Sint, Clear::Colour(_)) => {
+                "integers hold no colour: clear it to the sentinel".to_owned()
+            }
             (TargetFormat::Rgba8Unorm, Clear::Sentinel) => {
                 "bytes can't hold the sentinel: clear it to a colour, and take coverage from a float target or the depth"
                     .to_owned()
@@ -167,6 +199,12 @@ mod tests {
         };
         assert!(sentinel.validate("job", 0).is_err());
         assert!(RenderTarget::floats(Clear::Sentinel).validate("job", 0).is_ok());
+        assert!(RenderTarget::integers(true).validate("job", 0).is_ok());
+        let coloured = RenderTarget {
+            clear: Clear::Colour([0.0; 4]),
+            ..RenderTarget::integers(false)
+        };
+        assert!(coloured.validate("job", 0).is_err());
         assert!(
             RenderTarget::floats(Clear::Colour([f32::NAN; 4]))
                 .validate("job", 0)

@@ -38,6 +38,7 @@
 //! # }
 //! ```
 
+mod callable;
 pub mod cost;
 pub mod diagnostic;
 pub mod emit;
@@ -57,6 +58,7 @@ pub mod source;
 pub mod target;
 mod type_name;
 
+pub use callable::Callable;
 pub use cost::Cost;
 pub use diagnostic::{Code, Details, Diagnostic, Label};
 pub use emit::{Contents, Emitted, EmittedFile, emit};

@@ -109,8 +109,9 @@ impl Subject for ShaderSubject<'_> {
 impl ShaderSubject<'_> {
     fn at(&self, point: &Point) -> Result<Measured, String> {
         let ready = self.ready;
-        let expected = user::expect::at(ready, point).map_err(|error| with_causes(&error))?;
-        let got = user::expect::perfect(ready, point).map_err(|error| with_causes(&error))?;
+        let points = ready.alike(point);
+        let expected = user::expect::at(ready, &points).map_err(|error| with_causes(&error))?;
+        let got = user::expect::perfect(ready, &points).map_err(|error| with_causes(&error))?;
         let mut measured = Measured::of(1);
         for (output, (got, allowed)) in got.iter().zip(&expected.allowed).enumerate() {
             let bound = user::judge::bound(allowed);

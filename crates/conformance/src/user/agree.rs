@@ -2,13 +2,14 @@
 //!
 //! The first cell that ran to its end is what the others are compared with: `embedded`, our own evaluator, where it did. Two results that
 //! differ are allowed where the interval admits both. Where it admits one of them, or none, they *disagree*. Where the rules say nothing
-//! at all they differ by right; that is counted and a warning.
+//! at all they differ by right; that is counted and a warning. Of fragments only inputs are compared at which both rasterisers interpolated the
+//! same numbers.
 
+use bossage_bounds::ranges::Point;
 use bossage_bounds::{F32, Scalar};
 
-use super::expect::{Expected, Unknown};
 use super::judge::{bound, number, worst};
-use super::plan::Ready;
+use super::ready::Ready;
 use super::{Cell, accepted};
 use crate::bound::Bound;
 use crate::case::Outcome;
@@ -18,11 +19,7 @@ use crate::route::Route;
 use crate::ulp::ulp_distance;
 
 /// One outcome a cell; none for the one that the others are compared with.
-pub(super) fn outcomes(
-    ready: &Ready,
-    expected: &[Result<Expected, Unknown>],
-    cells: &[Cell],
-) -> Vec<Option<Outcome>> {
+pub(super) fn outcomes(ready: &Ready, cells: &[Cell]) -> Vec<Option<Outcome>> {
     let complete = |cell: &&Cell| cell.stopped.is_none() && !cell.got.is_empty();
     let first = cells
         .iter()
@@ -37,18 +34,24 @@ pub(super) fn outcomes(
             .then(|| Outcome::skipped("no other route ran to its end")),
         Some(first) => Some(match &cell.stopped {
             Some(stop) => Outcome::skipped(stop.to_string()),
-            None => outcome(ready, expected, cell, first),
+            None => outcome(ready, cell, first),
         }),
     };
     cells.iter().map(one).collect()
 }
 
-fn outcome(ready: &Ready, expected: &[Result<Expected, Unknown>], cell: &Cell, first: &Cell) -> Outcome {
+fn outcome(ready: &Ready, cell: &Cell, first: &Cell) -> Outcome {
     let mut comparison = Comparison::default();
     let mut by_right = 0;
-    for (at, (got, other)) in cell.got.iter().zip(&first.got).enumerate() {
-        for (output, (got, other)) in got.iter().zip(other).enumerate() {
-            let bound = expected[at]
+    let mut inputs = 0;
+    for (at, (ran, other)) in cell.got.iter().zip(&first.got).enumerate() {
+        if !same_inputs(&ran.points, &other.points) {
+            continue;
+        }
+        inputs += 1;
+        for (output, (got, other)) in ran.got.iter().zip(&other.got).enumerate() {
+            let bound = cell.expected[at]
+                .as_ref()
                 .as_ref()
                 .map_or(Bound::OPEN, |expected| bound(&expected.allowed[output]));
             let differ = !same(got, other);
@@ -63,7 +66,7 @@ fn outcome(ready: &Ready, expected: &[Result<Expected, Unknown>], cell: &Cell, f
             };
             comparison.count(&bound, refusal);
             comparison.keep_worst(badness, refusal, || {
-                let mut worst = worst(ready, at, output, got, &bound, None);
+                let mut worst = worst(ready, (at, ran), output, &bound, None);
                 worst.ulp = distance;
                 worst.abs = Some((number(got) - number(other)).abs()).filter(|x| x.is_finite());
                 worst.other = Some(OtherResult {
@@ -74,7 +77,12 @@ fn outcome(ready: &Ready, expected: &[Result<Expected, Unknown>], cell: &Cell, f
             });
         }
     }
-    let inputs = cell.got.len();
+    if inputs == 0 && !cell.got.is_empty() {
+        return Outcome::skipped(format!(
+            "its rasteriser interpolates otherwise than that of {} at every input, so no outputs are comparable",
+            first.name()
+        ));
+    }
     if comparison.refusal.is_some() || comparison.outputs == 0 {
         return Outcome::of(inputs, comparison, 1.0);
     }
@@ -86,6 +94,18 @@ fn outcome(ready: &Ready, expected: &[Result<Expected, Unknown>], cell: &Cell, f
         )
     });
     accepted(inputs, comparison, warning)
+}
+
+/// Whether two machines got the same inputs, to the bit.
+fn same_inputs(a: &[Point], b: &[Point]) -> bool {
+    let bits = |points: &[Point]| -> Vec<u64> {
+        points
+            .iter()
+            .flat_map(|point| &point.values)
+            .map(|x| x.to_bits())
+            .collect()
+    };
+    bits(a) == bits(b)
 }
 
 /// Equal numbers; two NaNs are the same.

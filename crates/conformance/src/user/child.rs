@@ -208,6 +208,7 @@ mod tests {
             name: "shader".to_owned(),
             wgsl: String::new(),
             entry: "main".to_owned(),
+            companion: None,
             jobs: vec![job; jobs],
         })
     }
@@ -263,6 +264,7 @@ mod tests {
             name: String::new(),
             wgsl: String::new(),
             entry: String::new(),
+            companion: None,
             jobs: Vec::new(),
         };
         assert!(reason(&children.execute(&empty)).contains("cannot be started"));

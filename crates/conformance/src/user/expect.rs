@@ -1,11 +1,14 @@
 //! What the outputs may be, from the shader's own IR at each of its inputs.
 
+use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
 use bossage_bounds::ranges::Point;
-use bossage_bounds::{Accept, BufferData, Domain, Error, F32, F64, Limits, Scalar, run_compute};
+use bossage_bounds::{Accept, Error, F32, F64, Limits, Scalar};
 use bossage_translate::{Code, Diagnostic, Shader};
 use rayon::prelude::*;
 
-use super::plan::Ready;
+use super::ready::Ready;
 use crate::case::with_causes;
 
 /// Outputs at one input.
@@ -26,43 +29,70 @@ pub(crate) enum Unknown {
     Limited(String),
 }
 
-/// For each input the expected outputs.
-pub(crate) fn of(ready: &Ready, shader: &Shader) -> Vec<Result<Expected, Unknown>> {
-    let one = |point| at(ready, point).map_err(|error| unknown(&error, ready, shader));
-    ready.points.par_iter().map(one).collect()
-}
-
-/// The expected outputs at a point.
-pub(crate) fn at(ready: &Ready, point: &Point) -> Result<Expected, Error> {
+/// The expected outputs at the invocations of an input.
+pub(crate) fn at(ready: &Ready, points: &[Point]) -> Result<Expected, Error> {
     Ok(Expected {
-        allowed: outputs(ready, point, &ready.limits)?,
-        formula: outputs(ready, point, &ready.limits).ok(),
+        allowed: ready.evaluate(points, &ready.limits)?,
+        formula: ready.evaluate(points, &ready.limits).ok(),
     })
 }
 
-/// What a perfect machine returns at a point.
-pub(crate) fn perfect(ready: &Ready, point: &Point) -> Result<Vec<Scalar<F32>>, Error> {
-    outputs(ready, point, &ready.limits)
+/// What a perfect machine returns.
+pub(crate) fn perfect(ready: &Ready, points: &[Point]) -> Result<Vec<Scalar<F32>>, Error> {
+    ready.evaluate(points, &ready.limits)
 }
 
-/// The allowed outputs at a point, within other limits.
-pub(crate) fn allowed(ready: &Ready, point: &Point, limits: &Limits) -> Result<Vec<Scalar<Accept>>, Error> {
-    outputs(ready, point, limits)
+/// The expected outputs at the inputs that were asked for. Machines that got the same inputs share them.
+pub(super) struct Known<'a> {
+    ready: &'a Ready,
+    shader: &'a Shader,
+    found: HashMap<Vec<u64>, At>,
 }
 
-fn outputs<D: Domain>(ready: &Ready, point: &Point, limits: &Limits) -> Result<Vec<Scalar<D>>, Error> {
-    let (mut bindings, _) = ready.inputs.at::<D>(&[point])?;
-    run_compute(&ready.program, &mut bindings, ready.workgroups, limits)?;
-    let of_buffer = |buffer: &bossage_bounds::BufferUse| match bindings.buffers.get(&buffer.binding) {
-        Some(BufferData::Scalars(scalars)) => scalars.clone(),
-        // A run leaves every writable buffer as scalars.
-        Some(BufferData::Bytes(_)) | None => Vec::new(),
-    };
-    Ok(ready
-        .outputs
-        .iter()
-        .flat_map(|(buffer, _)| of_buffer(buffer))
-        .collect())
+/// Shared, since an input may have very many outputs.
+pub(crate) type At = Arc<Result<Expected, Unknown>>;
+
+impl<'a> Known<'a> {
+    pub(super) fn new(ready: &'a Ready, shader: &'a Shader) -> Self {
+        Self {
+            ready,
+            shader,
+            found: HashMap::new(),
+        }
+    }
+
+    /// For each input the expected outputs.
+    pub(super) fn at<'p>(&mut self, inputs: impl Iterator<Item = &'p [Point]>) -> Vec<At> {
+        let keyed: Vec<(Vec<u64>, &[Point])> = inputs.map(|points| (key(points), points)).collect();
+        let new: BTreeMap<&Vec<u64>, &[Point]> = keyed
+            .iter()
+            .filter(|(key, _)| !self.found.contains_key(key))
+            .map(|(key, points)| (key, *points))
+            .collect();
+        let (ready, shader) = (self.ready, self.shader);
+        let made: Vec<(Vec<u64>, At)> = new
+            .into_par_iter()
+            .map(|(key, points)| {
+                let expected = at(ready, points).map_err(|error| unknown(&error, ready, shader));
+                (key.clone(), Arc::new(expected))
+            })
+            .collect();
+        self.found.extend(made);
+        keyed
+            .iter()
+            .filter_map(|(key, _)| self.found.get(key).cloned())
+            .collect()
+    }
+}
+
+/// Everything of an input, to the bit.
+fn key(points: &[Point]) -> Vec<u64> {
+    let values = points.iter().flat_map(|point| &point.values);
+    let texels = points
+        .first()
+        .into_iter()
+        .flat_map(|point| point.texels.iter().flatten());
+    values.chain(texels).map(|x| x.to_bits()).collect()
 }
 
 fn unknown(error: &Error, ready: &Ready, shader: &Shader) -> Unknown {

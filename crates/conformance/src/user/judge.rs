@@ -3,7 +3,7 @@
 use bossage_bounds::{Accept, F32, F64, Scalar, Truth};
 
 use super::expect::{Expected, Unknown};
-use super::plan::Ready;
+use super::ready::{Ran, Ready};
 use super::{Cell, Stop, accepted};
 use crate::bound::Bound;
 use crate::case::Outcome;
@@ -62,15 +62,15 @@ pub(super) fn refusal(got: &Scalar<F32>, bound: &Bound, starts_unwritten: bool) 
 }
 
 /// All outputs of a cell.
-pub(super) fn outcome(ready: &Ready, expected: &[Result<Expected, Unknown>], cell: &Cell) -> Outcome {
+pub(super) fn outcome(ready: &Ready, cell: &Cell) -> Outcome {
     let mut comparison = Comparison::default();
     let mut unknown = None;
-    for (at, (got, expected)) in cell.got.iter().zip(expected).enumerate() {
-        match expected {
-            Ok(expected) => compare(ready, at, got, expected, &mut comparison),
+    for (at, (ran, expected)) in cell.got.iter().zip(&cell.expected).enumerate() {
+        match expected.as_ref() {
+            Ok(expected) => compare(ready, at, ran, expected, &mut comparison),
             Err(reason) => {
-                comparison.outputs += got.len();
-                comparison.undecided += got.len();
+                comparison.outputs += ran.got.len();
+                comparison.undecided += ran.got.len();
                 unknown.get_or_insert(reason);
             }
         }
@@ -112,8 +112,8 @@ pub(super) fn outcome(ready: &Ready, expected: &[Result<Expected, Unknown>], cel
     accepted(inputs, comparison, warning)
 }
 
-fn compare(ready: &Ready, at: usize, got: &[Scalar<F32>], expected: &Expected, comparison: &mut Comparison) {
-    for (output, (got, allowed)) in got.iter().zip(&expected.allowed).enumerate() {
+fn compare(ready: &Ready, at: usize, ran: &Ran, expected: &Expected, comparison: &mut Comparison) {
+    for (output, (got, allowed)) in ran.got.iter().zip(&expected.allowed).enumerate() {
         let bound = bound(allowed);
         let refusal = refusal(got, &bound, ready.starts_unwritten(output));
         let truth = expected
@@ -123,7 +123,9 @@ fn compare(ready: &Ready, at: usize, got: &[Scalar<F32>], expected: &Expected, c
             .filter(|x| bound.is_decided() && bound.contains(*x));
         let badness = badness(number(got), &bound, truth, refusal);
         comparison.count(&bound, refusal);
-        comparison.keep_worst(badness, refusal, || worst(ready, at, output, got, &bound, truth));
+        comparison.keep_worst(badness, refusal, || {
+            worst(ready, (at, ran), output, &bound, truth)
+        });
     }
 }
 
@@ -155,16 +157,15 @@ fn share(x: f64, bound: &Bound, truth: Option<f64>) -> Option<f64> {
 
 pub(super) fn worst(
     ready: &Ready,
-    at: usize,
+    (at, ran): (usize, &Ran),
     output: usize,
-    got: &Scalar<F32>,
     bound: &Bound,
     truth: Option<f64>,
 ) -> Worst {
-    let x = number(got);
+    let x = number(&ran.got[output]);
     let finite = |x: f64| x.is_finite().then_some(x);
     let name = ready.name(output);
-    let point = &ready.points[at];
+    let point = &ran.points[ready.lane(output)];
     Worst {
         ulp: truth.and_then(|truth| finite(error_ulps(x, truth))),
         abs: truth.and_then(|truth| finite((x - truth).abs())),

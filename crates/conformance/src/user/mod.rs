@@ -12,29 +12,40 @@
 //!
 //! The error in ULPs is measured against the formula in f64, where that lies in the interval.
 //!
+//! Compute entry points are dispatched; vertex and fragment entry points are drawn between generated stages (`draw`).
+//!
 //! Limits: storage textures, depth, layered, multisampled and integer textures, push constants and binding arrays are not bound, which
-//! is said as a skip. Compute entry points are run; those of other stages are skipped.
+//! is said as a skip.
 
 mod agree;
+mod bindable;
 mod child;
+mod draw;
 pub(crate) mod expect;
 pub(crate) mod judge;
+mod picture;
 mod plan;
+mod ready;
 mod request;
+#[cfg(test)]
+mod stage_tests;
 #[cfg(test)]
 mod tests;
 
 use std::fmt;
 
 use bossage_bounds::ranges::Declared;
-use bossage_bounds::{F32, Scalar};
 use bossage_translate::Shader;
 use serde::{Deserialize, Serialize};
 
 pub use child::Children;
 pub use plan::Plan;
-pub(crate) use plan::{Ready, plans};
-pub use request::{Buffer, Job, Request, Texels, execute, serve};
+pub(crate) use plan::plans;
+pub(crate) use ready::Ready;
+pub use request::{Buffer, Companion, Job, Kept, Pass, Request, Side, Texels, execute, serve};
+
+use expect::{At, Known};
+use ready::Ran;
 
 use crate::case::Outcome;
 use crate::case_id::CaseId;
@@ -95,7 +106,7 @@ impl Executor for InProcess {
 /// What came of a request.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Execution {
-    /// For each job that ended, its written buffers.
+    /// For each job that ended, its written buffers, or the pixels of its targets.
     pub done: Vec<Vec<Vec<u8>>>,
     /// Why not all did.
     pub stopped: Option<Stop>,
@@ -123,7 +134,9 @@ impl fmt::Display for Stop {
 struct Cell {
     route: Route,
     adapter: String,
-    got: Vec<Vec<Scalar<F32>>>,
+    got: Vec<Ran>,
+    /// For each input that ran, what its outputs may be.
+    expected: Vec<At>,
     stopped: Option<Stop>,
 }
 
@@ -198,6 +211,7 @@ fn results_of(
                     route: *route,
                     adapter: adapter.clone(),
                     got: Vec::new(),
+                    expected: Vec::new(),
                     stopped: None,
                 };
                 ["ranges", "agreement"].map(|generator| {
@@ -207,39 +221,57 @@ fn results_of(
             return Ok((cells.iter().flat_map(skipped).collect(), None));
         }
     };
-    let expected = expect::of(ready, shader);
+    let mut known = Known::new(ready, shader);
     let ran: Vec<Cell> = cells
         .iter()
-        .map(|(route, adapter)| {
-            let execution = executor.execute(&ready.request(&plan.shader, *route, adapter));
-            let got = execution.done.iter().map(|buffers| ready.decode(buffers));
-            let (got, stopped) = match got.collect::<Option<Vec<_>>>() {
-                Some(got) => (got, execution.stopped),
-                None => (
-                    Vec::new(),
-                    Some(Stop::Failed("it returned buffers of another size".to_owned())),
-                ),
-            };
-            Cell {
-                route: *route,
-                adapter: adapter.clone(),
-                got,
-                stopped,
-            }
-        })
+        .map(|cell| run_cell(plan, ready, cell, executor, &mut known))
         .collect();
-    let judged = ran.iter().map(|cell| {
-        let outcome = judge::outcome(ready, &expected, cell);
-        result(plan, cell, options, "ranges", outcome)
-    });
-    let agreed = agree::outcomes(ready, &expected, &ran);
+    let judged = ran
+        .iter()
+        .map(|cell| result(plan, cell, options, "ranges", judge::outcome(ready, cell)));
+    let agreed = agree::outcomes(ready, &ran);
     let agreed = ran
         .iter()
         .zip(agreed)
         .filter_map(|(cell, outcome)| Some(result(plan, cell, options, "agreement", outcome?)));
     let results = judged.chain(agreed).collect();
-    let heat = heat::of_entry(plan, ready, shader.text(), &expected, &options.attribute)?;
+    let heat = match options.attribute {
+        Wanted::Nothing => None,
+        Wanted::Widest | Wanted::Named(_) => {
+            let expected = known.at(ready.points.iter().map(Vec::as_slice));
+            heat::of_entry(plan, ready, shader.text(), &expected, &options.attribute)?
+        }
+    };
     Ok((results, heat))
+}
+
+fn run_cell(
+    plan: &Plan,
+    ready: &Ready,
+    (route, adapter): &(Route, String),
+    executor: &dyn Executor,
+    known: &mut Known<'_>,
+) -> Cell {
+    let execution = executor.execute(&ready.request(&plan.shader, *route, adapter));
+    let decoded = execution
+        .done
+        .iter()
+        .enumerate()
+        .map(|(at, left)| ready.decode(at, left));
+    let (got, stopped) = match decoded.collect::<Option<Vec<Ran>>>() {
+        Some(got) => (got, execution.stopped),
+        None => (
+            Vec::new(),
+            Some(Stop::Failed("it returned results of another size".to_owned())),
+        ),
+    };
+    Cell {
+        route: *route,
+        adapter: adapter.clone(),
+        expected: known.at(got.iter().map(|ran| ran.points.as_slice())),
+        got,
+        stopped,
+    }
 }
 
 fn result(plan: &Plan, cell: &Cell, options: &Options, generator: &str, outcome: Outcome) -> CaseResult {

@@ -12,14 +12,14 @@ use bossage_runner::{
 use bossage_shaders::AssembledShader;
 use serde::{Deserialize, Serialize};
 
-use super::{Execution, Stop};
+use super::{Execution, Stop, picture};
 use crate::case::with_causes;
 use crate::route::{Prepared, Route};
 
 /// Bytes of address space that a process which runs a user's shader may take: a driver that compiles with LLVM needs two or three.
 const MEMORY_LIMIT: u64 = 16 << 30;
 
-/// Dispatches of one entry point by one route on one adapter.
+/// Runs of one entry point by one route on one adapter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Request {
     /// The route's name.
@@ -32,11 +32,58 @@ pub struct Request {
     pub wgsl: String,
     /// The entry point's name in it.
     pub entry: String,
+    /// Of a stage that is drawn: what is generated around it.
+    #[serde(default)]
+    pub companion: Option<Companion>,
     /// What to run, one after the other.
     pub jobs: Vec<Job>,
 }
 
-/// One dispatch.
+/// Generated stages, and the passes that draw with them and with the shader's own. Each pass draws the same triangles to 2 × 2 pixels.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Companion {
+    /// The generated code.
+    pub wgsl: String,
+    /// What is drawn, one after the other.
+    pub passes: Vec<Pass>,
+    /// Corners of triangles. A vertex gets its number as a float at location 0.
+    pub corners: u32,
+}
+
+/// A pair of stages, and what the fragment stage's locations are kept in.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Pass {
+    /// The vertex stage.
+    pub vertex: Side,
+    /// The fragment stage.
+    pub fragment: Side,
+    /// By location. All are read back, four words a pixel.
+    pub targets: Vec<Kept>,
+}
+
+/// An entry point, and whose it is.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Side {
+    /// In the request's code.
+    Own(String),
+    /// In the companion's.
+    Generated(String),
+}
+
+/// What a target keeps, four a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kept {
+    /// Floats.
+    Floats,
+    /// Unsigned integers.
+    Unsigned,
+    /// Signed integers.
+    Signed,
+}
+
+/// One dispatch, or what is bound for all passes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Job {
     /// All buffers.
@@ -81,7 +128,7 @@ pub struct Texels {
 pub(super) enum Said {
     /// The code is prepared, the adapter open.
     Ready,
-    /// A job is done: its written buffers, in the order of the job.
+    /// A job is done: its written buffers in the order of the job, or the targets of all passes.
     Done(Vec<Bytes>),
     /// Nothing more comes.
     Stopped(Stop),
@@ -159,31 +206,44 @@ fn run(request: &Request, say: &mut dyn FnMut(Said)) -> Result<(), Stop> {
         .route
         .parse()
         .map_err(|error| Stop::Failed(format!("{error}")))?;
-    let assembled = AssembledShader {
-        name: request.name.clone(),
-        wgsl: request.wgsl.clone(),
-        features: Vec::new(),
-        modules: Vec::new(),
+    let prepare = |name: String, wgsl: &str| {
+        let assembled = AssembledShader {
+            name,
+            wgsl: wgsl.to_owned(),
+            features: Vec::new(),
+            modules: Vec::new(),
+        };
+        route.prepare(&assembled).map_err(unprepared)
     };
-    let prepared = route.prepare(&assembled).map_err(unprepared)?;
+    let prepared = prepare(request.name.clone(), &request.wgsl)?;
+    let companion = request.companion.as_ref();
+    let generated = companion
+        .map(|companion| prepare(format!("{} (generated)", request.name), &companion.wgsl))
+        .transpose()?;
     let machine = bossage_embedded::open(&AdapterSelector::named(&request.adapter)).map_err(|e| stop(&e))?;
     say(Said::Ready);
     for job in &request.jobs {
-        let buffers = job.run(request, &prepared, machine.as_ref())?;
-        say(Said::Done(buffers));
+        let left = match (companion, &generated) {
+            (Some(companion), Some(generated)) => {
+                picture::run(job, companion, &prepared, generated, machine.as_ref())?
+            }
+            _ => job.run(request, &prepared, machine.as_ref())?,
+        };
+        say(Said::Done(left));
     }
     Ok(())
 }
 
 impl Job {
+    /// The textures as a machine takes them.
+    pub(super) fn textures(&self) -> Result<Vec<TextureData>, Stop> {
+        let made: Result<Vec<TextureData>, _> = self.textures.iter().map(Texels::data).collect();
+        made.map_err(|e| stop(&e))
+    }
+
     fn run(&self, request: &Request, prepared: &Prepared, machine: &dyn Machine) -> Result<Vec<Bytes>, Stop> {
         let shader = prepared.shader(&request.entry).map_err(Stop::Failed)?;
-        let textures: Vec<TextureData> = self
-            .textures
-            .iter()
-            .map(Texels::data)
-            .collect::<Result<_, _>>()
-            .map_err(|e| stop(&e))?;
+        let textures = self.textures()?;
         let job = ComputeJob {
             name: &request.entry,
             shader,
@@ -210,7 +270,7 @@ impl Job {
             .collect()
     }
 
-    fn resources<'a>(&'a self, textures: &'a [TextureData]) -> Resources<'a> {
+    pub(super) fn resources<'a>(&'a self, textures: &'a [TextureData]) -> Resources<'a> {
         let key = |(group, binding): (u32, u32)| slot(group, binding);
         let samplers = self.samplers.iter();
         Resources {
@@ -263,7 +323,7 @@ fn unprepared(text: String) -> Stop {
 }
 
 /// What the machine lacks is a skip; everything else is a failure of the shader, the route or the driver.
-fn stop(error: &bossage_runner::Error) -> Stop {
+pub(super) fn stop(error: &bossage_runner::Error) -> Stop {
     use bossage_runner::Error;
     let text = with_causes(error);
     match error {
