@@ -3,6 +3,10 @@
 //
 //     bossage check examples/user_shader.wgsl
 //     bossage emit examples/user_shader.wgsl -t hlsl,msl -o out
+//
+// Run both stages on every route and adapter of this machine, judged by the accuracy rules:
+//
+//     bossage conform --shader examples/user_shader.wgsl
 
 struct Scene {
     clip_from_world: mat4x4f,
