@@ -118,7 +118,7 @@ fn a_wrong_pixel_and_a_wrong_vertex_are_refused_by_name() {
         "{fragment:?}"
     );
     let worst = fragment.worst.as_ref().unwrap().to_string();
-    for word in ["location(0).y at pixel (1, 1) at input 5", "scene.tint", "uv = ("] {
+    for word in ["location(0).y at pixel (1, 1) at input 5", "normal = (", "uv = ("] {
         assert!(worst.contains(word), "{word} is not in\n{worst}");
     }
     let one_more = Lying {
