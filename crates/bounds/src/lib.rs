@@ -101,7 +101,7 @@ pub use error::{Error, Result};
 pub use exec::machine::Counters;
 pub use interval::{Accept, Flags, Interval, Range, WideCell};
 pub use kind::{IntType, Kind};
-pub use limits::Limits;
+pub use limits::{Limits, Nudge};
 pub use readback::BufferUse;
 pub use run::{
     Outcome, SpanCost, run_compute, run_entry, run_fragment, run_probe, run_probe_with, run_vertex,

@@ -20,6 +20,29 @@ pub struct Limits {
     pub watch: bool,
     /// A place in the source, in bytes: operations that begin there are taken for exact, which [`attribution`](fn@crate::attribution) asks for.
     pub exact: Option<std::ops::Range<usize>>,
+    /// A place whose results are moved, which [`crate::lint`] asks for to see what follows from them.
+    pub nudge: Option<Nudge>,
+}
+
+/// One place of the source, and how its sums and products are moved. The lint's own; see `exec/nudge.rs`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Nudge {
+    /// The span's number.
+    pub(crate) span: u32,
+    pub(crate) how: Move,
+}
+
+/// How results are moved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Move {
+    /// What vanished is given back a little.
+    Restore,
+    /// What is left of a sum grows by half a unit in the last place of its largest term.
+    Up,
+    /// And shrinks by as much.
+    Down,
+    /// What is left of a sum is nothing.
+    Vanish,
 }
 
 impl Default for Limits {
@@ -33,6 +56,7 @@ impl Default for Limits {
             count: false,
             watch: false,
             exact: None,
+            nudge: None,
         }
     }
 }

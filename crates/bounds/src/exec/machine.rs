@@ -39,6 +39,8 @@ pub struct Counters {
     pub(crate) events: super::watch::Events,
     /// By span number, the bits of an operand that must not be zero, or not below it, if the run was watched.
     pub(crate) margins: std::collections::BTreeMap<u32, u64>,
+    /// Sums and products that something worse may come from, if the run was watched.
+    pub(crate) suspects: super::watch::Suspects,
     /// Comparisons and steps whose result was open, if the run was watched.
     pub(crate) undecided: u64,
 }
@@ -53,6 +55,7 @@ impl Counters {
         self.undecided += other.undecided;
         self.margins.extend(&other.margins);
         super::watch::absorb(&mut self.events, &other.events);
+        super::watch::absorb(&mut self.suspects, &other.suspects);
         self.by_span
             .resize(self.by_span.len().max(other.by_span.len()), [0; 2]);
         for (to, from) in self.by_span.iter_mut().zip(&other.by_span) {
@@ -83,6 +86,8 @@ pub(crate) struct Machine<'a, D: Domain> {
     pub(crate) depth: u32,
     /// By span number: whether operations there are taken for exact. Empty where none are.
     pub(crate) exact: Vec<bool>,
+    /// By row: whether it holds a constant. Empty where the run is not watched.
+    pub(crate) constant: Vec<bool>,
 }
 
 impl<'a, D: Domain> Machine<'a, D> {
@@ -103,7 +108,14 @@ impl<'a, D: Domain> Machine<'a, D> {
             frames: Vec::new(),
             depth: 0,
             exact: exact_spans(context),
+            constant: Vec::new(),
         };
+        if context.limits.watch {
+            machine.constant = vec![false; code.kinds.len()];
+            for (row, _) in &code.constants {
+                machine.constant[*row as usize] = true;
+            }
+        }
         if context.limits.count {
             machine.counters.by_span = vec![[0; 2]; code.spans.len()];
         }

@@ -10,7 +10,8 @@
 //! [`Limits::undecided_exits`](crate::Limits::undecided_exits) rounds is given up: what it writes becomes *undecided*.
 //!
 //! `machine` holds the state, `lanes` forks and merges, `narrow` tells either way what its condition says, `flow` runs control flow, `ops` runs instructions, `memory` is shared
-//! memory, `places` resolves pointers, `packing`, `atomics`, `quads`, `images` hold the instructions of those names.
+//! memory, `places` resolves pointers, `packing`, `atomics`, `quads`, `images` hold the instructions of those names. `watch`, `nudge` and `exact` are there for the
+//! lint and for attribution.
 
 pub(crate) mod atomics;
 pub(crate) mod exact;
@@ -20,6 +21,7 @@ pub(crate) mod lanes;
 pub(crate) mod machine;
 pub(crate) mod memory;
 pub(crate) mod narrow;
+pub(crate) mod nudge;
 pub(crate) mod ops;
 pub(crate) mod packing;
 pub(crate) mod places;

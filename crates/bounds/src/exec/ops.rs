@@ -93,6 +93,9 @@ impl<'a, D: Domain> Machine<'a, D> {
         if self.is_exact(instr) {
             self.make_exact(instr, active);
         }
+        if let Some(nudge) = self.context.limits.nudge {
+            self.nudge(instr, active, (nudge.span, nudge.how));
+        }
         if self.context.limits.watch {
             self.observe(instr, active);
         }

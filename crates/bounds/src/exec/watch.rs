@@ -4,6 +4,7 @@
 //! where a sum or difference loses its digits: operands known well, a result known badly.
 
 use super::machine::Machine;
+use super::nudge::{Combination, Combines, largest};
 use crate::compile::code::{Instr, Op, Row};
 use crate::domain::ops::{FloatBinary, FloatUnary};
 use crate::domain::{Domain, Truth};
@@ -21,6 +22,13 @@ pub(crate) struct Event {
 }
 
 impl Event {
+    fn new(operands: [f64; 2], weight: f64) -> Self {
+        Self {
+            operands: operands.map(f64::to_bits),
+            weight: weight.to_bits(),
+        }
+    }
+
     /// The operands.
     pub(crate) fn operands(&self) -> [f64; 2] {
         self.operands.map(f64::from_bits)
@@ -35,8 +43,22 @@ impl Event {
 /// Events by span number and rule; of several the worst, then the first.
 pub(crate) type Events = BTreeMap<(u32, Rule), Event>;
 
+/// What may be the cause of something that goes wrong later on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Suspicion {
+    /// Terms that cancelled to nothing.
+    Cancelled,
+    /// A product too small for the format.
+    Underflowed,
+    /// A number near the opposite of a constant, of which only the last digits are left.
+    NearConstant,
+}
+
+/// Suspects by span number; of several at one place the worst, then the first.
+pub(crate) type Suspects = BTreeMap<(u32, Suspicion), Event>;
+
 /// Adds events of another batch.
-pub(crate) fn absorb(to: &mut Events, from: &Events) {
+pub(crate) fn absorb<K: Copy + Ord>(to: &mut BTreeMap<K, Event>, from: &BTreeMap<K, Event>) {
     for (&site, &event) in from {
         let entry = to.entry(site).or_insert(event);
         // Bits of numbers that are not negative are in the order of the numbers.
@@ -73,6 +95,7 @@ impl<D: Domain> Machine<'_, D> {
             self.steps(instr, active);
         } else {
             self.margins(instr, active);
+            self.suspects(instr, active);
         }
         match &instr.op {
             Op::FloatUnary { op, w, dst, a } => self.each(instr.span, *dst, &[*a], active, false, |x, r| {
@@ -167,6 +190,39 @@ impl<D: Domain> Machine<'_, D> {
         }
     }
 
+    /// Notes sums and products that something worse may come from.
+    fn suspects(&mut self, instr: &Instr, active: &[u32]) {
+        let Some(combination) = Combination::of(&instr.op) else {
+            return;
+        };
+        let of_constant = combination.terms().iter().any(|row| self.constant[*row as usize]);
+        for &lane in active {
+            let (numbers, n) = self.numbers(combination.terms(), lane);
+            let terms = &numbers[..n];
+            let result = D::float_bounds(self.get(combination.dst, lane)).0;
+            let suspicion = if combination.vanishes(terms, result) {
+                match combination.combines {
+                    Combines::Sum => Suspicion::Cancelled,
+                    Combines::Product => Suspicion::Underflowed,
+                }
+            } else if of_constant && combination.leaves_little(terms, result) {
+                Suspicion::NearConstant
+            } else {
+                continue;
+            };
+            let weight = if suspicion == Suspicion::NearConstant {
+                largest(terms) / result.abs()
+            } else {
+                0.0
+            };
+            let event = Event::new([numbers[0], numbers[1]], weight);
+            absorb(
+                &mut self.counters.suspects,
+                &BTreeMap::from([((instr.span, suspicion), event)]),
+            );
+        }
+    }
+
     /// Counts results that jump: a comparison either way, two whole numbers.
     fn steps(&mut self, instr: &Instr, active: &[u32]) {
         let open = |machine: &Self, lane: u32| match &instr.op {
@@ -215,17 +271,15 @@ impl<D: Domain> Machine<'_, D> {
                 continue;
             };
             if worst > 0.0 && worst < KNOWN_WELL && error > KNOWN_BADLY && error > LOSS * worst {
-                self.note(span, Rule::Cancellation, &[result], error / worst);
+                let ends = [(result.0, result.0), (result.1, result.1)];
+                self.note(span, Rule::Cancellation, &ends, error / worst);
             }
         }
     }
 
     fn note(&mut self, span: u32, rule: Rule, operands: &[Bounds], weight: f64) {
-        let bits = |k: usize| operands.get(k).map_or(0, |x| x.0.to_bits());
-        let event = Event {
-            operands: [bits(0), bits(1)],
-            weight: weight.to_bits(),
-        };
+        let operand = |k: usize| operands.get(k).map_or(0.0, |x| x.0);
+        let event = Event::new([operand(0), operand(1)], weight);
         absorb(
             &mut self.counters.events,
             &BTreeMap::from([((span, rule), event)]),

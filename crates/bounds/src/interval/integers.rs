@@ -143,12 +143,27 @@ fn bitwise(op: IntBinary, t: IntType, a: Bounds, b: Bounds) -> Bounds {
             _ => whole(t),
         };
     }
-    let all_ones = |x: i128| (1i128 << (128 - x.leading_zeros())) - 1;
     match op {
-        IntBinary::And => (0, a.1.min(b.1)),
+        IntBinary::And => masked(a, b),
         IntBinary::Or => (a.0.max(b.0), all_ones(a.1.max(b.1))),
         _ => (0, all_ones(a.1.max(b.1))),
     }
+}
+
+/// The least number of the form 2ᵏ − 1 that is not below `x`.
+fn all_ones(x: i128) -> i128 {
+    (1i128 << (128 - x.leading_zeros())) - 1
+}
+
+/// The bits that two numbers have in common. A mask that clears lower bits and none between is monotone: it rounds down.
+fn masked(a: Bounds, b: Bounds) -> Bounds {
+    for (x, mask) in [(a, b), (b, a)] {
+        let cleared = all_ones(x.1) & !mask.0;
+        if mask.0 == mask.1 && cleared & (cleared + 1) == 0 {
+            return (x.0 & mask.0, x.1 & mask.0);
+        }
+    }
+    (0, a.1.min(b.1))
 }
 
 fn enumerate(op: IntBinary, t: IntType, a: Bounds, b: Bounds) -> Bounds {
@@ -221,5 +236,30 @@ pub(crate) fn negate(t: Truth) -> Truth {
         Truth::False => Truth::True,
         Truth::True => Truth::False,
         Truth::Maybe => Truth::Maybe,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::masked;
+
+    #[test]
+    fn a_mask_of_upper_bits_rounds_down() {
+        assert_eq!(masked((0x1234, 0x5678), (0xff00, 0xff00)), (0x1200, 0x5600));
+        assert_eq!(masked((0xf0, 0xf0), (0x1234, 0x5678)), (0, 0xf0));
+        // Whole numbers of 5 and above but below 16: bit by bit.
+        for mask in [0b1110, 0b1100, 0b1000, 0b1111, 0] {
+            let values: Vec<i128> = (5..=13).map(|x| x & mask).collect();
+            let bounds = masked((5, 13), (mask, mask));
+            assert_eq!(Some(&bounds.0), values.iter().min(), "{mask:b}");
+            assert_eq!(Some(&bounds.1), values.iter().max(), "{mask:b}");
+        }
+    }
+
+    #[test]
+    fn a_mask_with_gaps_is_bounded_only() {
+        let bounds = masked((5, 13), (0b1010, 0b1010));
+        assert!((5..=13).all(|x| bounds.0 <= x & 0b1010 && x & 0b1010 <= bounds.1));
+        assert_eq!(bounds, (0, 0b1010));
     }
 }

@@ -6,7 +6,8 @@
 //!   what is walked under them, and relations between values (no component exceeds the largest, a vector over its length is a unit
 //!   vector) close what intervals alone leave open. Where alarms remain, the box of inputs is cut in two and walked again (`prove`).
 //! - A **search** (`search`) shows. Seeded points, at the edges of the ranges first, run over the perfect machine
-//!   ([`F32`](crate::F32)) with every operation watched, between points on both sides of a zero by bisection, and over [`Accept`](crate::Accept) for lost digits (`cancel`).
+//!   ([`F32`](crate::F32)) with every operation watched, between points on both sides of a zero by bisection, and over [`Accept`](crate::Accept) for lost digits (`cancel`). Where an output is not finite, the sums and
+//!   products that it comes from are named as well (`cause`).
 //!
 //! A finding with a witness does happen. A finding without one could neither be excluded nor shown, and says so. What neither raises is
 //! excluded, unless [`Report::unfinished`] says that a loop or a budget kept the walk from seeing all.
@@ -14,11 +15,14 @@
 //! Integer division by zero, shifts and indices out of bounds have an answer in the language and are no findings here. Integers in floats
 //! are floats. Of races between invocations nothing is seen.
 
+mod backward;
 mod cancel;
+mod cause;
 mod prove;
 mod relate;
 pub(crate) mod rule;
 mod search;
+mod size;
 mod space;
 mod state;
 mod step;
@@ -98,8 +102,9 @@ pub fn lint(program: &Program, inputs: &Inputs, options: &Options) -> Report {
     search.cancellation(options.points / 4, until(0.6));
     let mut seed = Seed::new(options.seed);
     let known: BTreeSet<prove::Site> = search.found.keys().copied().collect();
-    let verdict = prove::prove(program, inputs, options.boxes, until(0.9), &mut seed, |point| {
-        let mut found = search.attempt(point);
+    let proved = until(0.9);
+    let verdict = prove::prove(program, inputs, options.boxes, proved, &mut seed, |point| {
+        let mut found = search.attempt(point, proved);
         found.extend(&known);
         found
     });
@@ -147,6 +152,11 @@ fn witness(inputs: &Inputs, rule: Rule, shown: &Shown) -> Witness {
         (Rule::DivisionByZero | Rule::NormaliseZero, Some(event)) => {
             let [a, b] = event.operands();
             format!("{a:?} / {b:?}")
+        }
+        (Rule::VanishingSum, Some(_)) => "the terms cancel to nothing".to_owned(),
+        (Rule::Underflow, Some(event)) => {
+            let [a, b] = event.operands();
+            format!("{a:?} · {b:?} is zero")
         }
         (Rule::PowerDomain, Some(event)) => {
             let [a, b] = event.operands();

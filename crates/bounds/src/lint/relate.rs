@@ -3,11 +3,13 @@
 //! - A number is no larger in magnitude than the maximum, the sum of magnitudes or the root of the sum of squares it went into.
 //! - So a vector divided by its largest component, or by its length, has components within [−1, 1]; the sum of its squares is at
 //!   least 1, or is 1.
+//! - A vector times the power of two that brings its largest component to [½, 1) has components within [−1, 1].
 //! - The scalar product of two unit vectors lies within [−1, 1].
 //!
 //! Each up to rounding, for which [`SLACK`] leaves ample room; relations through squares hold where nothing underflows, which is
 //! asked for.
 
+use super::size;
 use super::state::State;
 use super::table::{Def, Table, Vn};
 use crate::domain::ops::{FloatBinary, FloatUnary};
@@ -146,6 +148,19 @@ impl State {
         let positive = self.bounds(b).is_some_and(|bounds| bounds.0 > 0.0);
         let k = self.at_most(table, a, b, 12).filter(|_| positive)? * (1.0 + SLACK);
         let least = if self.is_positive(a) { 0.0 } else { -k };
+        Some((least, k))
+    }
+
+    /// Bounds of a product that follow from how its factors were made: one of them brings the other to size.
+    pub(super) fn product(&self, table: &Table, a: Vn, b: Vn) -> Option<(f64, f64)> {
+        let sized = |x: Vn, factor: Vn| {
+            let sized = size::brought_to_size(table, factor)?;
+            let most = sized.largest(self.bounds(sized.number)?)?;
+            let share = self.at_most(table, x, sized.number, 12)?;
+            Some((x, share * most * (1.0 + SLACK)))
+        };
+        let (x, k) = sized(a, b).or_else(|| sized(b, a))?;
+        let least = if self.is_positive(x) { 0.0 } else { -k };
         Some((least, k))
     }
 

@@ -24,6 +24,10 @@ pub enum Rule {
     ArcDomain,
     /// A finite operation whose result is beyond the largest number.
     Overflow,
+    /// A product too small for the format, because of which an output is no number.
+    Underflow,
+    /// A sum whose terms cancel to nothing, because of which an output is no number.
+    VanishingSum,
     /// A NaN in an output.
     NanOutput,
     /// A loop that does not end within the operation budget, or whose end could not be shown.
@@ -34,7 +38,7 @@ pub enum Rule {
 
 impl Rule {
     /// All rules.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::DivisionByZero,
         Self::NormaliseZero,
         Self::RootDomain,
@@ -42,6 +46,8 @@ impl Rule {
         Self::PowerDomain,
         Self::ArcDomain,
         Self::Overflow,
+        Self::Underflow,
+        Self::VanishingSum,
         Self::NanOutput,
         Self::UnboundedLoop,
         Self::Cancellation,
@@ -57,6 +63,8 @@ impl Rule {
             Self::PowerDomain => "power_domain",
             Self::ArcDomain => "arc_domain",
             Self::Overflow => "overflow",
+            Self::Underflow => "underflow",
+            Self::VanishingSum => "vanishing_sum",
             Self::NanOutput => "nan_output",
             Self::UnboundedLoop => "unbounded_loop",
             Self::Cancellation => "cancellation",
@@ -85,6 +93,12 @@ impl Rule {
             Self::ArcDomain => "this inverse function can get a number outside of its domain; clamp it",
             Self::Overflow => {
                 "this can exceed the largest number; scale before squaring, or limit what goes in"
+            }
+            Self::Underflow => {
+                "this product vanishes while its factors do not, and what is made of it is not finite; scale the factors first"
+            }
+            Self::VanishingSum => {
+                "these terms can cancel to nothing, and what is made of the sum is not finite; branch where nothing is left"
             }
             Self::NanOutput => "a NaN that arises here reaches an output",
             Self::UnboundedLoop => "nothing bounds this loop; give it a hard number of steps",

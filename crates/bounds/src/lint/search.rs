@@ -3,6 +3,7 @@
 //! Points are chosen by [`Inputs::sample`] from a seed and run over [`F32`], watched. The first point that shows a defect is its
 //! witness, made simpler input by input while it still shows it.
 
+use super::cause::{self, Suspects};
 use super::prove::Site;
 use super::rule::Rule;
 use crate::bindings::{Bindings, BufferData, Scalar};
@@ -11,8 +12,8 @@ use crate::compile::program::{Program, ResourceKind};
 use crate::domain::Domain;
 use crate::domain::point::F32;
 use crate::error::{Error, Result};
-use crate::exec::watch::{Event, Events};
-use crate::limits::Limits;
+use crate::exec::watch::{self, Event, Events};
+use crate::limits::{Limits, Nudge};
 use crate::ranges::{Inputs, Point, Seed, Style, Values};
 use crate::run::{run_compute, run_fragment, run_vertex};
 use crate::stage::StageOutputs;
@@ -50,11 +51,22 @@ pub(super) struct Search<'p> {
     pub(super) inputs: &'p Inputs,
     pub(super) seed: u64,
     pub(super) found: BTreeMap<Site, Shown>,
+    /// How often a suspect was tried.
+    pub(super) trials: BTreeMap<Site, u32>,
+}
+
+/// What a point shows, and what may be the cause of it.
+#[derive(Default)]
+pub(super) struct Seen {
+    sites: BTreeMap<Site, Option<Event>>,
+    suspects: Option<Suspects>,
 }
 
 /// What one run gave.
 pub(super) struct Run<D: Domain> {
     pub(super) events: Events,
+    /// Sums and products that what goes wrong may come from.
+    pub(super) suspects: watch::Suspects,
     pub(super) outputs: Vec<D::Float>,
     /// Whether a condition or a step could go either way.
     pub(super) undecided: bool,
@@ -64,9 +76,21 @@ pub(super) struct Run<D: Domain> {
 
 /// Runs the shader at a point; fragments that take derivatives come as a quad around it.
 pub(super) fn run<D: Domain>(program: &Program, inputs: &Inputs, point: &Point, seed: u64) -> Result<Run<D>> {
+    run_nudged(program, inputs, point, seed, None)
+}
+
+/// As [`run`], with results moved at one place.
+pub(super) fn run_nudged<D: Domain>(
+    program: &Program,
+    inputs: &Inputs,
+    point: &Point,
+    seed: u64,
+    nudge: Option<Nudge>,
+) -> Result<Run<D>> {
     let limits = Limits {
         operations: OPERATIONS,
         watch: true,
+        nudge,
         ..Limits::default()
     };
     let quad = (program.stage == ShaderStage::Fragment && program.uses_derivatives())
@@ -93,6 +117,7 @@ pub(super) fn run<D: Domain>(program: &Program, inputs: &Inputs, point: &Point, 
     outputs.extend(written(program, &bindings));
     Ok(Run {
         events: outcome.counters.events,
+        suspects: outcome.counters.suspects,
         outputs,
         margins: outcome
             .counters
@@ -138,25 +163,42 @@ impl<'p> Search<'p> {
             inputs,
             seed,
             found: BTreeMap::new(),
+            trials: BTreeMap::new(),
         }
     }
 
     /// What a point shows.
-    pub(super) fn shows(&self, point: &Point) -> BTreeMap<Site, Option<Event>> {
+    pub(super) fn shows(&self, point: &Point) -> Seen {
         match run::<F32>(self.program, self.inputs, point, self.seed) {
             Ok(run) => {
+                let suspects = cause::suspects(&run);
                 let is_nan = run.outputs.iter().any(|x| x.is_nan());
                 let events = run.events.into_iter();
-                events
+                let sites = events
                     .filter(|((_, rule), _)| *rule != Rule::NanOutput || is_nan)
                     .map(|(site, event)| (site, Some(event)))
-                    .collect()
+                    .collect();
+                Seen {
+                    sites,
+                    suspects: Some(suspects),
+                }
             }
             Err(Error::Budget { span, .. }) => {
                 let site = (self.loop_around(span), Rule::UnboundedLoop);
-                BTreeMap::from([(site, None)])
+                Seen {
+                    sites: BTreeMap::from([(site, None)]),
+                    suspects: None,
+                }
             }
-            Err(_) => BTreeMap::new(),
+            Err(_) => Seen::default(),
+        }
+    }
+
+    /// Whether a point shows one site, and with what.
+    fn still_shows(&self, point: &Point, site: Site) -> Option<Option<Event>> {
+        match site.1 {
+            Rule::VanishingSum | Rule::Underflow => self.shows_cause(point, site).map(Some),
+            _ => self.shows(point).sites.remove(&site),
         }
     }
 
@@ -184,7 +226,7 @@ impl<'p> Search<'p> {
         let mut at = 0;
         while at < points && Instant::now() < until {
             let numbers: Vec<u64> = (at..(at + CHUNK).min(points)).map(|n| n as u64).collect();
-            let shown: Vec<(Point, BTreeMap<Site, Option<Event>>)> = numbers
+            let shown: Vec<(Point, Seen)> = numbers
                 .into_par_iter()
                 .filter(|n| *n < ALWAYS || Instant::now() < until)
                 .map(|n| {
@@ -193,8 +235,8 @@ impl<'p> Search<'p> {
                     (point, shown)
                 })
                 .collect();
-            for (point, sites) in shown {
-                self.keep(&point, sites);
+            for (point, seen) in shown {
+                self.keep(&point, seen, until);
             }
             at += CHUNK;
         }
@@ -244,7 +286,7 @@ impl<'p> Search<'p> {
             let Some(middle) = self.inputs.between_points(&above, &below) else {
                 return;
             };
-            if middle == above || middle == below || self.attempt(&middle).contains(&site) {
+            if middle == above || middle == below || self.attempt(&middle, until).contains(&site) {
                 return;
             }
             let run = run::<F32>(self.program, self.inputs, &middle, self.seed);
@@ -257,17 +299,22 @@ impl<'p> Search<'p> {
     }
 
     /// Tries one point, if the inputs admit it; what it newly shows.
-    pub(super) fn attempt(&mut self, point: &Point) -> BTreeSet<Site> {
+    pub(super) fn attempt(&mut self, point: &Point, until: Instant) -> BTreeSet<Site> {
         if !self.inputs.admits(point) {
             return BTreeSet::new();
         }
-        let sites = self.shows(point);
-        self.keep(point, sites);
+        let seen = self.shows(point);
+        self.keep(point, seen, until);
         self.found.keys().copied().collect()
     }
 
-    fn keep(&mut self, point: &Point, sites: BTreeMap<Site, Option<Event>>) {
-        for (site, event) in sites {
+    fn keep(&mut self, point: &Point, seen: Seen, until: Instant) {
+        let causes = match &seen.suspects {
+            Some(suspects) => self.causes(point, suspects, until),
+            None => Vec::new(),
+        };
+        let causes = causes.into_iter().map(|(site, event)| (site, Some(event)));
+        for (site, event) in seen.sites.into_iter().chain(causes) {
             self.found.entry(site).or_insert_with(|| Shown {
                 point: point.clone(),
                 event,
@@ -311,7 +358,7 @@ impl<'p> Search<'p> {
             }
             let mut simpler = current.clone();
             simpler.values[group.scalars.clone()].copy_from_slice(&values);
-            if let Some(event) = self.shows(&simpler).remove(&site) {
+            if let Some(event) = self.still_shows(&simpler, site) {
                 self.found.insert(
                     site,
                     Shown {

@@ -285,8 +285,8 @@ impl<'p> Walk<'p> {
             FloatBinary::Divide => state.quotient(&self.table, x.vn, y.vn),
             FloatBinary::Add => state.total(&self.table, &[x.vn, y.vn]),
             FloatBinary::Subtract if x.vn == y.vn && clean(x.cell) => Some((0.0, 0.0)),
+            FloatBinary::Multiply => state.product(&self.table, x.vn, y.vn),
             FloatBinary::Subtract
-            | FloatBinary::Multiply
             | FloatBinary::Remainder
             | FloatBinary::Min
             | FloatBinary::Max

@@ -25,6 +25,9 @@ pub enum Style {
     Random,
     /// Hard values, and now and then a random one.
     Edge,
+    /// Values that have to do with each other: vectors that are multiples of earlier ones, up to rounding, and unit vectors at any distance
+    /// from an axis or a diagonal.
+    Related,
 }
 
 /// A source of random numbers (SplitMix64, Steele, Lea and Flood 2014): equal seeds give equal choices on every machine.
@@ -80,6 +83,9 @@ impl Inputs {
         if style == Style::Edge && seed.below(4) == 0 && self.like_another(point, at, seed) {
             return;
         }
+        if style == Style::Related && seed.below(2) == 0 && self.multiple_of_another(point, at, seed) {
+            return;
+        }
         match &group.values {
             Values::Unit => {
                 let v = unit(group.scalars.len(), seed, style);
@@ -115,8 +121,8 @@ impl Inputs {
         }
     }
 
-    /// Takes over another input of the same length, or its opposite, if the range allows it.
-    fn like_another(&self, point: &mut Point, at: usize, seed: &mut Seed) -> bool {
+    /// An earlier input of the same length and type.
+    fn another(&self, at: usize, seed: &mut Seed) -> Option<&Group> {
         let group = &self.groups[at];
         let earlier: Vec<&Group> = self.groups[..at]
             .iter()
@@ -125,10 +131,15 @@ impl Inputs {
                     && self.scalars[other.scalars.start].kind == self.scalars[group.scalars.start].kind
             })
             .collect();
-        if earlier.is_empty() {
+        (!earlier.is_empty()).then(|| earlier[seed.below(earlier.len())])
+    }
+
+    /// Takes over another input of the same length, or its opposite, if the range allows it.
+    fn like_another(&self, point: &mut Point, at: usize, seed: &mut Seed) -> bool {
+        let group = &self.groups[at];
+        let Some(other) = self.another(at, seed) else {
             return false;
-        }
-        let other = earlier[seed.below(earlier.len())];
+        };
         let sign = if seed.below(2) == 0 { 1.0 } else { -1.0 };
         let values: Vec<f64> = point.values[other.scalars.clone()]
             .iter()
@@ -139,6 +150,43 @@ impl Inputs {
         }
         point.values[group.scalars.clone()].copy_from_slice(&values);
         true
+    }
+
+    /// Takes a multiple of another input of the same length, each component rounded and perhaps a few steps off, if the range allows it.
+    fn multiple_of_another(&self, point: &mut Point, at: usize, seed: &mut Seed) -> bool {
+        let group = &self.groups[at];
+        let Some(other) = self.another(at, seed) else {
+            return false;
+        };
+        let Kind::Float(w) = self.scalars[group.scalars.start].kind else {
+            return false;
+        };
+        let sign = if seed.below(2) == 0 { 1.0 } else { -1.0 };
+        let factor = match group.values {
+            Values::Between(_) => sign * (4.0 * seed.fraction() - 2.0).exp2(),
+            Values::Unit | Values::OneOf(_) => sign,
+        };
+        let steps = if seed.below(2) == 0 { 2 } else { 0 };
+        let mut value = |x: &f64| {
+            let mut x = w.round(x * factor);
+            for _ in 0..seed.below(steps + 1) {
+                x = if seed.below(2) == 0 {
+                    w.next_up(x)
+                } else {
+                    w.next_down(x)
+                };
+            }
+            x
+        };
+        let values: Vec<f64> = point.values[other.scalars.clone()]
+            .iter()
+            .map(&mut value)
+            .collect();
+        let admitted = group.admits(&values);
+        if admitted {
+            point.values[group.scalars.clone()].copy_from_slice(&values);
+        }
+        admitted
     }
 
     /// A point half-way between two, up to rounding; `None` where no such point is in the ranges.
@@ -343,6 +391,9 @@ fn fitted(kind: Kind, x: f64, lo: f64, hi: f64) -> f64 {
 
 /// A unit vector: an axis, a diagonal of some components, or any direction.
 fn unit(n: usize, seed: &mut Seed, style: Style) -> Vec<f64> {
+    if style == Style::Related && seed.below(4) != 0 {
+        return beside(n, seed);
+    }
     let mut v: Vec<f64> = if style == Style::Edge && seed.below(4) != 0 {
         (0..n).map(|_| seed.below(3) as f64 - 1.0).collect()
     } else {
@@ -353,6 +404,22 @@ fn unit(n: usize, seed: &mut Seed, style: Style) -> Vec<f64> {
         let k = seed.below(n);
         v[k] += [1e-7, -1e-7, 1e-4, -1e-4, 1e-20][seed.below(5)];
     }
+    normalised(&v)
+}
+
+/// A unit vector beside an axis or a diagonal: at a distance of which the magnitude is spread evenly, down to one step.
+fn beside(n: usize, seed: &mut Seed) -> Vec<f64> {
+    let mut v: Vec<f64> = if seed.below(2) == 0 {
+        let axis = seed.below(n);
+        let side = if seed.below(2) == 0 { 1.0 } else { -1.0 };
+        (0..n).map(|k| if k == axis { side } else { 0.0 }).collect()
+    } else {
+        (0..n)
+            .map(|_| if seed.below(2) == 0 { 1.0 } else { -1.0 })
+            .collect()
+    };
+    let distance = (-25.0 * seed.fraction()).exp2();
+    v.iter_mut().for_each(|x| *x += distance * gaussian(seed));
     normalised(&v)
 }
 

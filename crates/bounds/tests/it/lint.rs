@@ -307,6 +307,133 @@ fn the_same_without_cancellation_is_clean() {
     assert!(linted.report.findings.is_empty(), "{:?}", linted.report);
 }
 
+/// What cancels is named where it cancels, however far the quotient or the direction is that fails for it.
+#[test]
+fn vanishing_sum() {
+    let functions = "fn direction(v: vec2f) -> vec2f { return normalize(v); }";
+    let source = shader(
+        functions,
+        "let sum = vec2f(a[0], a[1]) + vec2f(a[2], a[3]);\no[0] = direction(sum).x;",
+    );
+    fires(Rule::VanishingSum, "vec2f(a[0], a[1]) +", &source, not_finite);
+    // The sum may be zero, and nothing is worse for it.
+    clean(&shader(
+        "",
+        "let sum = a[0] + a[1];\no[0] = 1.0 / (sum * sum + 1.0);",
+    ));
+    clean(&shader(
+        "",
+        "let d = a[0] - a[1];\nif (abs(d) > 1e-6) { o[0] = 1.0 / d; }",
+    ));
+}
+
+/// Another sum that is zero at the same input is not blamed.
+#[test]
+fn a_sum_that_causes_nothing_is_not_named() {
+    let source = shader("", "let other = a[1] - a[2];\no[0] = 1.0 / a[0] + other;");
+    let linted = linted(source, "");
+    assert!(linted.find(Rule::DivisionByZero).is_some(), "{:?}", linted.report);
+    assert!(linted.find(Rule::VanishingSum).is_none(), "{:?}", linted.report);
+}
+
+/// A loop over an index list, whose terms cancel only together.
+#[test]
+fn terms_that_are_gathered_cancel_too() {
+    let source = shader(
+        "",
+        "var sum = vec2f(0.0);\nfor (var i = 0u; i < 4u; i++) { sum += vec2f(a[2u * i], a[2u * i + 1u]); }\no[0] = normalize(sum).x;",
+    );
+    fires(Rule::VanishingSum, "sum += vec2f(a[2u * i]", &source, not_finite);
+}
+
+#[test]
+fn underflow() {
+    let small = "\"a[0]\" = { lo = 1e-30, hi = 1e-25 }";
+    let source = shader(
+        "",
+        "let v = vec2f(a[0], 0.0);\no[0] = v.x / sqrt(v.x * v.x + v.y * v.y);",
+    );
+    let found = linted(source.clone(), small);
+    let finding = found
+        .find(Rule::Underflow)
+        .unwrap_or_else(|| panic!("{:?}", found.report));
+    assert!(
+        found.at(finding).starts_with("v.x * v.x"),
+        "{}",
+        found.at(finding)
+    );
+    assert!(not_finite(&found.outputs(finding)), "{:?}", finding.witness);
+    let large = "\"a[0]\" = { lo = 1e-15, hi = 1 }";
+    assert!(linted(source, large).find(Rule::Underflow).is_none());
+}
+
+/// Digits that are lost to inputs' own rounding are no fault of the formula, unless what is left is divided by without a look at it.
+#[test]
+fn a_difference_of_rounded_products_that_is_divided_by() {
+    let body = "let area = a[0] * a[3] - a[1] * a[2];\n";
+    let wide = "\"a[0..2]\" = { lo = -8, hi = 8 }\n\"a[2..4]\" = { lo = -8, hi = 8 }";
+    let found = linted(shader("", &format!("{body}o[0] = a[4] / area;")), wide);
+    let finding = found
+        .find(Rule::Cancellation)
+        .unwrap_or_else(|| panic!("{:?}", found.report));
+    assert!(
+        found.at(finding).starts_with("a[0] * a[3] - a[1] * a[2]"),
+        "{}",
+        found.at(finding)
+    );
+    let guard = "if (abs(area) <= max(1e-6 * (abs(a[0] * a[3]) + abs(a[1] * a[2])), 1e-30)) { return; }\n";
+    let guarded = linted(shader("", &format!("{body}{guard}o[0] = a[4] / area;")), wide);
+    assert!(guarded.report.findings.is_empty(), "{:?}", guarded.report);
+    let harmless = linted(shader("", &format!("{body}o[0] = area;")), wide);
+    assert!(harmless.report.findings.is_empty(), "{:?}", harmless.report);
+}
+
+/// One vector's own components: no normal close by has such a tangent.
+#[test]
+fn a_vector_that_cancels_against_itself() {
+    let unit = "\"a[0..3]\" = { unit = true }";
+    let body = |across: &str| {
+        shader(
+            "",
+            &format!(
+                "let n = vec3f(a[0], a[1], a[2]);\nlet t = cross(n, {across});\nlet l = dot(t, t);\n\
+                 if (l > 1e-30) {{ let d = t * inverseSqrt(l); o[0] = d.x; o[1] = d.y; o[2] = d.z; }}"
+            ),
+        )
+    };
+    let found = linted(body("vec3f(n.y, -n.z, n.x)"), unit);
+    let finding = found
+        .find(Rule::Cancellation)
+        .unwrap_or_else(|| panic!("{:?}", found.report));
+    assert!(found.at(finding).starts_with("cross(n"), "{}", found.at(finding));
+}
+
+/// No operation errs in 1 + n.z, but near −1 only the last digits of n.z are left in it.
+#[test]
+fn an_input_near_a_constant() {
+    let unit = "\"a[0..3]\" = { unit = true }";
+    let source = shader(
+        "",
+        "let n = vec3f(a[0], a[1], a[2]);\nif (n.z > -0.99999994) { o[0] = n.x * n.y / (1.0 + n.z); }",
+    );
+    let found = linted(source, unit);
+    let finding = found
+        .find(Rule::Cancellation)
+        .unwrap_or_else(|| panic!("{:?}", found.report));
+    assert!(
+        found.at(finding).starts_with("1.0 + n.z"),
+        "{}",
+        found.at(finding)
+    );
+    let away = shader(
+        "",
+        "let n = vec3f(a[0], a[1], a[2]);\nif (n.z >= 0.0) { o[0] = n.x * n.y / (1.0 + n.z); }",
+    );
+    assert!(linted(away, unit).report.findings.is_empty());
+    let harmless = shader("", "o[0] = 1.0 + a[2];");
+    assert!(linted(harmless, unit).report.findings.is_empty());
+}
+
 #[test]
 fn unit_vectors_stay_unit_vectors() {
     let unit = "\"a[0..3]\" = { unit = true }\n\"a[3..6]\" = { unit = true }";

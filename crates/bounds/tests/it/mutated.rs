@@ -159,7 +159,7 @@ fn evaluate(text: &str) -> (bool, bool) {
         let Ok(inputs) = Inputs::new(&module, &info, &entry.name, None) else {
             continue;
         };
-        for style in [Style::Random, Style::Edge] {
+        for style in [Style::Random, Style::Edge, Style::Related] {
             ended |= run::<F32>(&program, &inputs, style).is_ok();
             ended |= run::<F64>(&program, &inputs, style).is_ok();
             ended |= run::<Accept>(&program, &inputs, style).is_ok();

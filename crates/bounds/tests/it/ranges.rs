@@ -110,7 +110,7 @@ fn samples_lie_in_the_ranges_and_repeat_with_the_seed() {
     let inputs = inputs(Some(
         "schema = 1\n[ranges]\n\"material.base_color\" = { lo = [0, 0.5, -3, 1e-40], hi = [0, 0.75, -2, 1e30] }",
     ));
-    for style in [Style::Edge, Style::Random] {
+    for style in [Style::Edge, Style::Random, Style::Related] {
         let (mut a, mut b) = (Seed::new(9), Seed::new(9));
         for _ in 0..2000 {
             let point = inputs.sample(&mut a, style);
