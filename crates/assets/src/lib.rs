@@ -52,6 +52,7 @@ pub mod relaxed_cone_map;
 mod scaled;
 mod slope_search;
 mod truncate;
+pub mod window_maxima;
 
 pub use color_map::{ColorMap, linear_from_srgb, linear_from_srgb_byte, srgb_from_linear};
 pub use cone_map::ConeMap;
@@ -64,3 +65,4 @@ pub use mesh::Mesh;
 pub use normal_encoding::NormalEncoding;
 pub use normal_map::{NormalCodec, NormalMap};
 pub use normalisation_cube_map::NormalisationCubeMap;
+pub use window_maxima::WindowMaxima;

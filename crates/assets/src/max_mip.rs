@@ -25,7 +25,7 @@ pub fn bake(field: &HeightField, edge: EdgeMode) -> Vec<HeightField> {
 }
 
 /// The maximum over each texel's own square.
-fn texels(field: &HeightField, edge: EdgeMode) -> HeightField {
+pub(crate) fn texels(field: &HeightField, edge: EdgeMode) -> HeightField {
     let neighbour = |x: u32, y: u32, dx: i64, dy: i64| {
         let x = edge.resolve(i64::from(x) + dx, field.width);
         let y = edge.resolve(i64::from(y) + dy, field.height);
