@@ -1,21 +1,51 @@
-//! Which relief technique: the one place that decides, and the one to replace when there are more techniques and costs.
+//! Which relief technique, with which settings: the one place that decides.
 //!
-//! Rule. Candidates come with their predicted error (sampled rays of this scene against the f64 first hit) in order of cost,
-//! cheapest first. The cheapest whose 99th-percentile error on screen meets the budget is taken; if none does, the one of
-//! least error, cheapest first among equals, and the choice says that the budget is not met.
+//! Every candidate searches the same rays of this scene in f64; what it misses is its error, and its steps times the cost profile's
+//! figures are its time. A candidate meets an error budget if the **upper bound** of its 99th percentile does (see `percentile.rs`).
+//! While a cheaper candidate than the cheapest that does is in doubt, it gets four times the rays, up to [`MOST_RAYS`].
+//!
+//! | budget | chosen | where nothing meets it |
+//! |---|---|---|
+//! | `error_px` | the cheapest within it | the one of least error |
+//! | `time_ms` | the one of least error within it | – (no relief takes no time) |
+//! | both | the cheapest within both | the one of least error within `time_ms` |
+//!
+//! Equal ones: the one named first, or the cheaper one. Techniques without figures in the profile are no candidates.
 
 use serde::Serialize;
 
-use crate::predict;
+use crate::model::Scene;
+use crate::predict::{Error, Sample, Sampler};
+use crate::profile::Profile;
+use crate::technique::{Settings, Technique};
+use crate::views::View;
 
-/// A technique that could be used, with what it would cost in accuracy.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// Rays of a material at first.
+pub(crate) const RAYS: u32 = 4096;
+/// Rays of a material at most.
+pub(crate) const MOST_RAYS: u32 = 1 << 18;
+
+/// A technique that could be used, with what it would cost.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Candidate {
+    /// The technique and its settings as one value.
+    #[serde(skip)]
+    pub how: Technique,
     /// Technique id, or `none`.
     pub technique: &'static str,
+    /// Its settings.
+    pub settings: Settings,
     /// The error to expect.
     #[serde(flatten)]
-    pub error: predict::Error,
+    pub error: Error,
+    /// What the 99th percentile in pixels does not exceed, by all that the rays say; none where they are too few to say.
+    pub error_px_p99_at_most: Option<f64>,
+    /// Mean steps a ray.
+    pub steps: f64,
+    /// The time to expect of it in a frame, milliseconds.
+    pub time_ms: f64,
+    /// Rays that were searched.
+    pub rays: usize,
 }
 
 /// What was chosen and what it was chosen over.
@@ -25,58 +55,192 @@ pub struct Choice {
     pub chosen: Candidate,
     /// Whether it meets the budget.
     pub meets_budget: bool,
-    /// The others, in order of cost.
+    /// What would have been chosen without it.
+    pub runner_up: Option<Candidate>,
+    /// What less budget would buy: of the cheaper ones, the one of least error.
+    pub cheaper: Option<Candidate>,
+    /// What more budget would buy: of the more accurate ones, the cheapest.
+    pub more_accurate: Option<Candidate>,
+    /// All others, cheapest first.
     pub others: Vec<Candidate>,
 }
 
-/// Chooses among candidates given in order of cost, cheapest first. `None` if there are none.
-pub(crate) fn choose(candidates: &[Candidate], budget_px: f64) -> Option<Choice> {
-    let fits = |candidate: &&Candidate| candidate.error.px_p99 <= budget_px;
-    let least = || {
-        candidates
-            .iter()
-            .min_by(|a, b| a.error.px_p99.total_cmp(&b.error.px_p99))
-    };
-    let chosen = *candidates.iter().find(fits).or_else(least)?;
-    let others = candidates
-        .iter()
-        .filter(|other| other.technique != chosen.technique)
-        .copied()
+/// What a material may cost. At least one is given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Limits {
+    pub(crate) error_px: Option<f64>,
+    pub(crate) time_ms: Option<f64>,
+}
+
+impl Limits {
+    fn times(&self, candidate: &Candidate) -> bool {
+        self.time_ms.is_none_or(|most| candidate.time_ms <= most)
+    }
+
+    fn errors(&self, candidate: &Candidate) -> bool {
+        self.error_px
+            .is_none_or(|most| candidate.error_px_p99_at_most.is_some_and(|error| error <= most))
+    }
+}
+
+/// What a technique on so many pixels costs.
+#[derive(Clone, Copy)]
+pub(crate) struct Price<'a> {
+    pub(crate) profile: &'a Profile,
+    pub(crate) pixels: f64,
+}
+
+impl Price<'_> {
+    /// Milliseconds of a frame; none without figures.
+    pub(crate) fn time_ms(&self, technique: Technique, steps: f64) -> Option<f64> {
+        if technique == Technique::None {
+            return Some(0.0);
+        }
+        let cost = self.profile.techniques.get(technique.id())?;
+        Some(self.pixels * cost.ns(steps) * 1e-6)
+    }
+}
+
+/// The choice for a material of a scene among any techniques, whether the surface can draw them or not, all of the scene's time being
+/// its own. None where the material has no heights or shows no ray.
+#[must_use]
+pub fn choice_among(scene: &Scene, material: usize, techniques: &[Technique]) -> Option<Choice> {
+    let views: Vec<View> = scene
+        .objects_of(material)
+        .map(|object| View::new(&scene.camera, object))
         .collect();
+    let material = &scene.materials[material];
+    let views: Vec<&View> = views.iter().collect();
+    let mut sampler = Sampler::new(material, material.height.as_ref()?, &views, None);
+    let limits = Limits {
+        error_px: scene.budget.error_px,
+        time_ms: scene.budget.time_ms,
+    };
+    let price = Price {
+        profile: &scene.budget.profile,
+        pixels: views.iter().map(|view| view.area_px()).sum(),
+    };
+    choose(&mut sampler, techniques, limits, price)
+}
+
+/// Chooses among techniques. `None` if the material shows no ray or no technique has a price.
+pub(crate) fn choose(
+    sampler: &mut Sampler<'_>,
+    techniques: &[Technique],
+    limits: Limits,
+    price: Price<'_>,
+) -> Option<Choice> {
+    let priced = techniques.iter().filter(|it| price.time_ms(**it, 0.0).is_some());
+    let mut trials: Vec<Trial> = priced.copied().map(Trial::new).collect();
+    let mut rays = RAYS;
+    sampler.grow(rays);
+    for trial in &mut trials {
+        sampler.extend(trial.technique, &mut trial.sample);
+    }
+    loop {
+        let candidates = cheapest_first(&trials, price);
+        let doubtful = doubtful(&candidates, &trials, limits);
+        if doubtful.is_empty() || rays >= MOST_RAYS {
+            return decide(&candidates, limits);
+        }
+        rays *= 4;
+        sampler.grow(rays);
+        for trial in trials
+            .iter_mut()
+            .filter(|trial| doubtful.contains(&trial.technique))
+        {
+            sampler.extend(trial.technique, &mut trial.sample);
+        }
+    }
+}
+
+/// A technique with all that it was asked.
+struct Trial {
+    technique: Technique,
+    sample: Sample,
+}
+
+impl Trial {
+    fn new(technique: Technique) -> Self {
+        Self {
+            technique,
+            sample: Sample::default(),
+        }
+    }
+
+    fn candidate(&self, price: Price<'_>) -> Option<Candidate> {
+        let steps = self.sample.mean_steps();
+        Some(Candidate {
+            how: self.technique,
+            technique: self.technique.id(),
+            settings: self.technique.settings(),
+            error: self.sample.error()?,
+            error_px_p99_at_most: Some(self.sample.px()?.at_most).filter(|most| most.is_finite()),
+            steps,
+            time_ms: price.time_ms(self.technique, steps)?,
+            rays: self.sample.len(),
+        })
+    }
+}
+
+/// The candidates, cheapest first; equal ones in the order of the trials.
+fn cheapest_first(trials: &[Trial], price: Price<'_>) -> Vec<Candidate> {
+    let mut candidates: Vec<Candidate> = trials.iter().filter_map(|trial| trial.candidate(price)).collect();
+    candidates.sort_by(|a, b| a.time_ms.total_cmp(&b.time_ms));
+    candidates
+}
+
+/// Those cheaper than what would be chosen that may be within the error after all.
+fn doubtful(candidates: &[Candidate], trials: &[Trial], limits: Limits) -> Vec<Technique> {
+    let Some(most) = limits.error_px else {
+        return Vec::new();
+    };
+    let may_fit = |candidate: &&Candidate| {
+        let of = |trial: &&Trial| trial.technique == candidate.how;
+        let px = trials.iter().find(of).and_then(|trial| trial.sample.px());
+        limits.times(candidate) && px.is_some_and(|px| px.at_least <= most)
+    };
+    let cheaper = candidates
+        .iter()
+        .take_while(|candidate| !limits.errors(candidate));
+    cheaper.filter(may_fit).map(|candidate| candidate.how).collect()
+}
+
+/// Chooses among candidates given cheapest first.
+fn decide(candidates: &[Candidate], limits: Limits) -> Option<Choice> {
+    let chosen = best(candidates, limits)?;
+    let others: Vec<Candidate> = candidates
+        .iter()
+        .filter(|other| other.how != chosen.how)
+        .cloned()
+        .collect();
+    let (time, px) = (chosen.time_ms, chosen.error.px_p99);
+    let cheaper = others.iter().filter(|other| other.time_ms < time);
+    let more_accurate = others.iter().find(|other| other.error.px_p99 < px);
     Some(Choice {
-        chosen,
-        meets_budget: fits(&&chosen),
+        meets_budget: limits.times(chosen) && limits.errors(chosen),
+        runner_up: best(&others, limits).cloned(),
+        cheaper: least_error(cheaper).cloned(),
+        more_accurate: more_accurate.cloned(),
+        chosen: chosen.clone(),
         others,
     })
 }
 
-#[cfg(test)]
-mod tests {
-    use super::{Candidate, choose};
-    use crate::predict::Error;
-
-    fn candidate(technique: &'static str, px_p99: f64) -> Candidate {
-        Candidate {
-            technique,
-            error: Error {
-                texels_p99: 2.0 * px_p99,
-                px_p99,
-            },
-        }
+fn best(candidates: &[Candidate], limits: Limits) -> Option<&Candidate> {
+    let in_time = || candidates.iter().filter(|candidate| limits.times(candidate));
+    let cheapest = || in_time().find(|candidate| limits.errors(candidate));
+    match limits.error_px {
+        Some(_) => cheapest().or_else(|| least_error(in_time())),
+        None => least_error(in_time()),
     }
-
-    #[test]
-    fn cheapest_that_fits_then_least_error() {
-        let candidates = [
-            candidate("cheap", 2.0),
-            candidate("middle", 0.5),
-            candidate("dear", 0.1),
-        ];
-        let at =
-            |budget| choose(&candidates, budget).map(|choice| (choice.chosen.technique, choice.meets_budget));
-        assert_eq!(at(3.0), Some(("cheap", true)));
-        assert_eq!(at(0.5), Some(("middle", true)));
-        assert_eq!(at(0.05), Some(("dear", false)));
-        assert_eq!(choose(&[], 1.0), None);
-    }
+    .or_else(|| candidates.first())
 }
+
+/// Of equal ones the first.
+fn least_error<'a>(candidates: impl Iterator<Item = &'a Candidate>) -> Option<&'a Candidate> {
+    candidates.min_by(|a, b| a.error.px_p99.total_cmp(&b.error.px_p99))
+}
+
+#[cfg(test)]
+mod tests;

@@ -13,6 +13,7 @@ use crate::facts::{MaterialFacts, has_mirrored_uv};
 use crate::model::{AlphaMode, Light, LightKind, Material, Normaliser, Object, Scene, TechniquePin};
 use crate::plan::{Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Predicted, State};
 use crate::relief;
+use crate::technique::Technique;
 use crate::views::View;
 
 /// How far below the cutoff a filtered alpha may come to lie by rounding although no texel is: half an 8-bit step, well
@@ -27,6 +28,8 @@ pub(crate) struct Subject<'a> {
     pub(crate) objects: Vec<&'a Object>,
     pub(crate) views: Vec<&'a View>,
     active_lights: Vec<&'a Light>,
+    /// Its share of the scene's time.
+    pub(crate) time_ms: Option<f64>,
 }
 
 /// An effect's entry, as [`Effect`] without its id.
@@ -69,8 +72,8 @@ pub(crate) fn evidence<const N: usize>(facts: [(&'static str, Fact); N]) -> Evid
     facts.into_iter().collect()
 }
 
-/// Plans one material.
-pub(crate) fn material(scene: &Scene, views: &[View], index: usize) -> MaterialPlan {
+/// Plans one material, whose relief may take so long a frame.
+pub(crate) fn material(scene: &Scene, views: &[View], index: usize, time_ms: Option<f64>) -> MaterialPlan {
     let material = &scene.materials[index];
     let used = || {
         scene
@@ -86,6 +89,7 @@ pub(crate) fn material(scene: &Scene, views: &[View], index: usize) -> MaterialP
         objects: used().map(|(object, _)| object).collect(),
         views: used().map(|(_, view)| view).collect(),
         active_lights: scene.active_lights().collect(),
+        time_ms,
     };
     subject.plan()
 }
@@ -117,7 +121,8 @@ impl Subject<'_> {
         let albedo_map = self.albedo_map(lighting.kept, alpha_discard.kept);
         asked.albedo = chosen(albedo_map.kept, Albedo::Map, Albedo::Constant);
         let relief = relief::decide(self, normal_map.kept || albedo_map.kept);
-        asked.relief = relief.technique;
+        // What is chosen can be drawn, and so can what is pinned.
+        asked.relief = relief.technique.relief().unwrap_or_default();
         let emboss = self.emboss();
         let mut features = FeatureSet {
             shading: chosen(
@@ -154,13 +159,14 @@ impl Subject<'_> {
         ];
         MaterialPlan {
             name: self.material.name.clone(),
-            technique: relief::id(features.relief),
+            technique: Technique::from(features.relief).id(),
+            settings: relief.technique.settings(),
             technique_by: chosen(self.material.technique == TechniquePin::Auto, "auto", "pinned"),
             shading: features.shading.as_str(),
             shading_by: chosen(self.material.shading == Shading::BlinnPhong, "auto", "pinned"),
             permutation: features.name(),
             features,
-            everything: self.everything(&asked, &features),
+            everything: self.everything(&asked, &features, relief.approximates),
             drawn,
             effects: effects
                 .into_iter()
@@ -174,13 +180,15 @@ impl Subject<'_> {
     }
 
     /// Everything on that goes with what was asked for: with a pinned shading even where the plan drops it, since that is what
-    /// has to be shown to change nothing.
-    fn everything(&self, asked: &FeatureSet, planned: &FeatureSet) -> FeatureSet {
-        FeatureSet {
+    /// has to be shown to change nothing. Relief that was left out within a budget stays out: it does change something.
+    fn everything(&self, asked: &FeatureSet, planned: &FeatureSet, approximates: bool) -> FeatureSet {
+        let full = FeatureSet {
             shading: asked.shading,
             ..*planned
         }
-        .all_effects()
+        .all_effects();
+        let relief = chosen(approximates, Relief::None, full.relief);
+        FeatureSet { relief, ..full }.canonical()
     }
 
     fn object_views(&self) -> Vec<ObjectView> {
@@ -465,6 +473,7 @@ pub(crate) fn count(n: usize) -> Fact {
 pub(crate) const NO_ERROR: Predicted = Predicted {
     error_texels_p99: Some(0.0),
     error_px_p99: Some(0.0),
+    time_ms: Some(0.0),
     ops: None,
     fetches: None,
 };

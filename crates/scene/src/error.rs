@@ -6,6 +6,7 @@
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use codespan_reporting::diagnostic::{Diagnostic, Label};
 use codespan_reporting::files::SimpleFile;
@@ -14,26 +15,28 @@ use codespan_reporting::term::{self, Chars, Config};
 /// Why a scene could not be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
-    /// The scene file itself could not be read.
-    #[error("cannot read the scene file {}", path.display())]
+    /// The scene file or cost profile itself could not be read.
+    #[error("cannot read the {what} {}", path.display())]
     Read {
+        /// What the file should be.
+        what: &'static str,
         /// The file.
         path: PathBuf,
         /// Why.
         #[source]
         source: std::io::Error,
     },
-    /// The scene file is larger than [`crate::schema::MAX_SCENE_BYTES`].
-    #[error(
-        "the scene file {} has {bytes} bytes; at most {} are read: is this a scene?",
-        path.display(),
-        crate::schema::MAX_SCENE_BYTES
-    )]
+    /// The file is larger than any of its kind: [`crate::schema::MAX_SCENE_BYTES`], [`crate::profile::MAX_BYTES`].
+    #[error("the {what} {} has {bytes} bytes; at most {most} are read: is this a {what}?", path.display())]
     TooLarge {
+        /// What the file should be.
+        what: &'static str,
         /// The file.
         path: PathBuf,
         /// Its size.
         bytes: u64,
+        /// The largest size that is read.
+        most: u64,
     },
     /// The file was read, and is wrong in one place or more.
     #[error(transparent)]
@@ -58,9 +61,20 @@ pub enum Origin {
     File,
     /// A setting's, as it was given.
     Setting(String),
+    /// That of a file which the scene names.
+    Named(Arc<NamedFile>),
 }
 
-/// One mistake in a scene file, or in a setting that goes with it.
+/// A file that a scene names and that has places of its own.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NamedFile {
+    /// The file, as resolved.
+    pub path: PathBuf,
+    /// Its text.
+    pub text: String,
+}
+
+/// One mistake in a scene file, in a setting that goes with it, or in a cost profile.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
     /// Path of the field, as `materials[1].height.scale`; empty for the file as a whole.
@@ -79,7 +93,7 @@ pub struct Problem {
     pub column: usize,
 }
 
-/// All mistakes of one file, with its text.
+/// All mistakes of one file and of those that it names, with its text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
     /// The file, as given.
@@ -91,6 +105,19 @@ pub struct Report {
 }
 
 impl Report {
+    /// The problems, told as those of a file that another one names.
+    pub(crate) fn into_named(self) -> Vec<Problem> {
+        let file = Arc::new(NamedFile {
+            path: self.path,
+            text: self.text,
+        });
+        let told = |problem| Problem {
+            origin: Origin::Named(file.clone()),
+            ..problem
+        };
+        self.problems.into_iter().map(told).collect()
+    }
+
     /// For a scene that was refused without a problem being noted: a mistake of this crate, and still no panic.
     pub(crate) fn unexplained(path: &Path, text: &str) -> Self {
         let problem = Problem {
@@ -114,15 +141,15 @@ impl std::error::Error for Report {}
 
 impl fmt::Display for Report {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let path = self.path.display().to_string();
         let config = Config {
             chars: Chars::ascii(),
             ..Config::default()
         };
         for problem in &self.problems {
             let file = match &problem.origin {
-                Origin::File => SimpleFile::new(path.as_str(), self.text.as_str()),
-                Origin::Setting(given) => SimpleFile::new("KEY=VALUE", given.as_str()),
+                Origin::File => SimpleFile::new(self.path.display().to_string(), self.text.as_str()),
+                Origin::Setting(given) => SimpleFile::new("KEY=VALUE".to_owned(), given.as_str()),
+                Origin::Named(file) => SimpleFile::new(file.path.display().to_string(), file.text.as_str()),
             };
             let text =
                 term::emit_into_string(&config, &file, &diagnostic(problem)).map_err(|_| fmt::Error)?;

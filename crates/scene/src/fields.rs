@@ -51,7 +51,16 @@ impl<'t> Sink<'t> {
         });
     }
 
-    /// The report, in file order and settings last, if there is anything to report.
+    /// Notes what the TOML reader found.
+    pub(crate) fn note_syntax(&self, errors: &[toml::de::Error]) {
+        for error in errors {
+            let span = error.span().unwrap_or(0..0);
+            let message = format!("not TOML: {}", error.message().replace('\n', ", "));
+            self.note("", span, message, "see https://toml.io for the syntax");
+        }
+    }
+
+    /// The report, in file order, settings and files that are named last, if there is anything to report.
     pub(crate) fn into_report(self, path: &Path, text: &str) -> Option<Box<Report>> {
         let mut problems = self.problems.into_inner();
         problems.sort_by(|a, b| {
@@ -123,6 +132,11 @@ impl<'t> Value<'t> {
         self.sink.note(&self.field, self.span.clone(), message, hint);
     }
 
+    /// Notes the problems of the file that this value names.
+    pub(crate) fn note_named(&self, report: Report) {
+        self.sink.problems.borrow_mut().extend(report.into_named());
+    }
+
     fn wrong_type(&self, expected: &str) {
         let found = self.value.type_str();
         self.note(
@@ -181,6 +195,19 @@ impl<'t> Value<'t> {
             );
         }
         found
+    }
+
+    /// The version of a format, which must be the one that is read.
+    pub(crate) fn version(&self, known: u32) -> Option<()> {
+        let number = self.whole(0..=u32::MAX)?;
+        if number != known {
+            self.note(
+                format!("schema {number} is not known"),
+                format!("this version reads schema {known}"),
+            );
+            return None;
+        }
+        Some(())
     }
 
     /// A string.
@@ -277,6 +304,7 @@ impl<'t> Value<'t> {
         Some(Table {
             field: self.field.clone(),
             span: self.span.clone(),
+            document: "",
             table,
             sink: self.sink,
             asked: RefCell::default(),
@@ -297,17 +325,21 @@ fn with_article(kind: &str) -> String {
 pub(crate) struct Table<'t> {
     pub(crate) field: String,
     pub(crate) span: Range<usize>,
+    /// What the file is, for its root.
+    document: &'static str,
     table: &'t DeTable<'t>,
     sink: &'t Sink<'t>,
     asked: RefCell<Vec<&'static str>>,
 }
 
 impl<'t> Table<'t> {
-    pub(crate) fn root(table: &'t Spanned<DeTable<'t>>, sink: &'t Sink<'t>) -> Self {
+    /// The whole file, which is `document`: "a scene".
+    pub(crate) fn root(table: &'t Spanned<DeTable<'t>>, document: &'static str, sink: &'t Sink<'t>) -> Self {
         // Problems of the file as a whole point at its first character.
         Self {
             field: String::new(),
             span: 0..0,
+            document,
             table: table.get_ref(),
             sink,
             asked: RefCell::default(),
@@ -387,7 +419,7 @@ impl<'t> Table<'t> {
         {
             let name = key.get_ref().as_ref();
             let what = if self.field.is_empty() {
-                "keys of a scene".to_owned()
+                format!("keys of {}", self.document)
             } else {
                 format!("keys of `{}`", self.field)
             };

@@ -7,7 +7,9 @@ use std::sync::Arc;
 
 use bossage_assets::{Image, Mesh, load_image, obj};
 
+use crate::error::Error;
 use crate::fields::Value;
+use crate::profile::Profile;
 
 /// Reads files relative to a scene, each once.
 pub(crate) struct Files {
@@ -50,6 +52,21 @@ impl Files {
                     chain(&error),
                     "a Wavefront OBJ with faces and texture coordinates; paths start at the scene's folder",
                 );
+                None
+            }
+        }
+    }
+
+    /// The cost profile that a field names. What is wrong in it is shown in the profile.
+    pub(crate) fn profile(&self, value: &Value<'_>) -> Option<Profile> {
+        match Profile::load(&self.resolve(value)?) {
+            Ok(profile) => Some(profile),
+            Err(Error::Invalid(report)) => {
+                value.note_named(*report);
+                None
+            }
+            Err(error) => {
+                value.note(chain(&error), "a cost profile; paths start at the scene's folder");
                 None
             }
         }

@@ -52,28 +52,33 @@ mod facts;
 mod fields;
 mod files;
 mod load;
+mod load_budget;
 mod load_environment;
 mod load_material;
 mod load_normal;
 mod load_object;
 mod model;
+mod percentile;
 mod plan;
 mod predict;
+pub mod profile;
 mod relief;
 mod rules;
 pub mod schema;
+mod sequence;
 mod settings;
 mod sheet;
 mod suggest;
 mod table;
+mod technique;
 mod textures;
 mod tile;
 mod views;
 
 pub use camera::Matrices;
-pub use choose::{Candidate, Choice};
+pub use choose::{Candidate, Choice, choice_among};
 pub use draw::{Draw, Pass, draws, draws_with};
-pub use error::{Error, Origin, Problem, Report};
+pub use error::{Error, NamedFile, Origin, Problem, Report};
 pub use facts::{AlbedoFacts, HeightFacts, MaterialFacts, NormalFacts};
 pub use load::{load, load_str, load_with};
 pub use model::{
@@ -84,7 +89,8 @@ pub use model::{
 pub use plan::{
     Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Permutation, Plan, Predicted, State, plan,
 };
-pub use predict::Error as PredictedError;
+pub use predict::{Error as PredictedError, Measured, measure};
 pub use settings::Setting;
+pub use technique::{Settings, Technique};
 pub use textures::{Level, Texels, Texture, TextureShape};
 pub use views::Footprint;

@@ -12,11 +12,11 @@ use toml::de::DeTable;
 use crate::error::{Error, Report};
 use crate::fields::{ANY, Bound, NOT_NEGATIVE, POSITIVE, Sink, Table, Value};
 use crate::files::Files;
-use crate::model::{Budget, Camera, Light, LightKind, Scene};
+use crate::model::{Camera, Light, LightKind, Scene};
 use crate::schema;
 use crate::settings::Setting;
 use crate::sheet::Sheet;
-use crate::{load_environment, load_material, load_object, rules};
+use crate::{load_budget, load_environment, load_material, load_object, rules};
 
 const FOV: Bound = Bound {
     allows: |x| x > 0.0 && x < 180.0,
@@ -36,19 +36,28 @@ pub fn load(path: &Path) -> Result<Scene, Error> {
 /// # Errors
 /// As [`load`]; what is wrong with a setting is shown in the setting.
 pub fn load_with(path: &Path, settings: &[Setting]) -> Result<Scene, Error> {
+    let text = read_text("scene file", path, schema::MAX_SCENE_BYTES)?;
+    load_text(path, &text, settings)
+}
+
+/// The text of a file of some kind that is not larger than any of its kind.
+pub(crate) fn read_text(what: &'static str, path: &Path, most: u64) -> Result<String, Error> {
+    let path_of = || path.to_owned();
     let read = |source| Error::Read {
-        path: path.to_owned(),
+        what,
+        path: path_of(),
         source,
     };
     let bytes = std::fs::metadata(path).map_err(read)?.len();
-    if bytes > schema::MAX_SCENE_BYTES {
+    if bytes > most {
         return Err(Error::TooLarge {
-            path: path.to_owned(),
+            what,
+            path: path_of(),
             bytes,
+            most,
         });
     }
-    let text = std::fs::read_to_string(path).map_err(read)?;
-    load_text(path, &text, settings)
+    std::fs::read_to_string(path).map_err(read)
 }
 
 /// Reads a scene from its text; `path` names it in messages, and its folder is where files are looked for.
@@ -66,18 +75,10 @@ fn load_text(path: &Path, text: &str, settings: &[Setting]) -> Result<Scene, Err
         setting.apply(document.get_mut(), start);
     }
     let sink = Sink::new(&sheet);
-    for error in &syntax {
-        let span = error.span().unwrap_or(0..0);
-        sink.note(
-            "",
-            span,
-            format!("not TOML: {}", error.message().replace('\n', ", ")),
-            "see https://toml.io for the syntax",
-        );
-    }
+    sink.note_syntax(&syntax);
     // A text that is not TOML recovers into fragments: judging those would bury the real mistake.
     let scene = if syntax.is_empty() {
-        scene(path, &Table::root(&document, &sink))
+        scene(path, &Table::root(&document, "a scene", &sink))
     } else {
         None
     };
@@ -92,18 +93,12 @@ fn scene(path: &Path, root: &Table<'_>) -> Option<Scene> {
     let files = Files::new(path);
     let version = root
         .need("schema", "`schema = 1` as the first line")
-        .and_then(|value| version(&value));
+        .and_then(|value| value.version(schema::SCHEMA));
     let camera = root
         .need("camera", "a `[camera]` section")
         .and_then(|value| camera(&value));
     let ambient = root.or("ambient", schema::AMBIENT, |value| value.vec3(NOT_NEGATIVE));
-    let budget = root.or(
-        "budget",
-        Budget {
-            error_px: schema::ERROR_PX,
-        },
-        budget,
-    );
+    let budget = load_budget::budget(root, &files);
     let lights = lights(root);
     let environment = root.or("environment", None, |value| {
         load_environment::environment(value, &files).map(Some)
@@ -131,18 +126,6 @@ fn scene(path: &Path, root: &Table<'_>) -> Option<Scene> {
         objects,
         budget: budget?,
     })
-}
-
-fn version(value: &Value<'_>) -> Option<()> {
-    let number = value.whole(0..=u32::MAX)?;
-    if number != schema::SCHEMA {
-        value.note(
-            format!("schema {number} is not known"),
-            format!("this version reads schema {}", schema::SCHEMA),
-        );
-        return None;
-    }
-    Some(())
 }
 
 fn camera(value: &Value<'_>) -> Option<Camera> {
@@ -232,13 +215,6 @@ fn size(value: &Value<'_>) -> Option<[u32; 2]> {
     let side = 1..=schema::MAX_CAMERA_SIDE;
     let (width, height) = (width.whole(side.clone()), height.whole(side));
     Some([width?, height?])
-}
-
-fn budget(value: &Value<'_>) -> Option<Budget> {
-    let table = value.table()?;
-    let error_px = table.or("error_px", schema::ERROR_PX, |v| v.number(POSITIVE));
-    table.finish();
-    Some(Budget { error_px: error_px? })
 }
 
 fn lights(root: &Table<'_>) -> Option<Vec<Light>> {

@@ -11,6 +11,8 @@ use bossage_assets::{ColorMap, CubeMap, EdgeMode, HeightField, Mesh, NormalMap, 
 use bossage_shaders::{Form, LightingSpace, Relief, Shading};
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 
+use crate::profile::Profile;
+
 /// A loaded scene.
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -28,7 +30,7 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Objects, in file order; names are unique.
     pub objects: Vec<Object>,
-    /// What error the planner may leave.
+    /// What the planner may spend.
     pub budget: Budget,
 }
 
@@ -414,9 +416,13 @@ impl Transform {
     }
 }
 
-/// What error the planner may leave, on screen.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What the planner may spend. At least one of error and time is given.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Budget {
     /// 99th percentile of the position error of a surface point, pixels.
-    pub error_px: f64,
+    pub error_px: Option<f64>,
+    /// Time of the relief of all materials in one frame, milliseconds.
+    pub time_ms: Option<f64>,
+    /// What rays and steps take.
+    pub profile: Arc<Profile>,
 }

@@ -13,6 +13,8 @@ use serde::Serialize;
 use crate::choose::Choice;
 use crate::decide;
 use crate::model::Scene;
+use crate::relief;
+use crate::technique::Settings;
 use crate::views::{Footprint, View};
 
 /// What a scene calls for.
@@ -22,8 +24,12 @@ pub struct Plan {
     pub schema: u32,
     /// The scene file.
     pub scene: PathBuf,
-    /// The budget it was made for: pixels, 99th percentile.
-    pub budget_px: f64,
+    /// The error it was made for: pixels, 99th percentile.
+    pub budget_px: Option<f64>,
+    /// The time it was made for: milliseconds of relief in a frame.
+    pub budget_ms: Option<f64>,
+    /// The cost profile that times are of.
+    pub profile: String,
     /// One entry a material, in scene order.
     pub materials: Vec<MaterialPlan>,
     /// Distinct feature sets, by name, with the materials that share each.
@@ -42,6 +48,17 @@ impl Plan {
     #[must_use]
     pub fn everything(&self, material: usize) -> FeatureSet {
         self.materials[material].everything
+    }
+
+    /// The budget in words.
+    #[must_use]
+    pub fn wanted(&self) -> String {
+        let error = self.budget_px.map(|px| format!("at most {px} px of error"));
+        let profile = &self.profile;
+        let time = self
+            .budget_ms
+            .map(|ms| format!("at most {ms} ms of relief a frame on {profile}"));
+        [error, time].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
     /// Fills in the static cost of one permutation, as its manifest states it, for every material that shares it.
@@ -64,6 +81,8 @@ pub struct MaterialPlan {
     pub name: String,
     /// The relief technique: `none`, or its id.
     pub technique: &'static str,
+    /// Its settings.
+    pub settings: Settings,
     /// `auto` or `pinned`: who decided the technique.
     pub technique_by: &'static str,
     /// What light does: `blinn_phong`, or the id of the shading.
@@ -243,6 +262,8 @@ pub struct Predicted {
     pub error_texels_p99: Option<f64>,
     /// The same in pixels on screen.
     pub error_px_p99: Option<f64>,
+    /// Time of the relief in a frame by the cost profile, milliseconds; none without figures.
+    pub time_ms: Option<f64>,
     /// Operations a pixel, from the manifest's static cost.
     pub ops: Option<u32>,
     /// Texture fetches a pixel, from the manifest's static cost.
@@ -268,16 +289,43 @@ pub fn plan(scene: &Scene) -> Plan {
         .iter()
         .map(|object| View::new(&scene.camera, object))
         .collect();
+    let time_ms = times_ms(scene, &views);
     let materials: Vec<MaterialPlan> = (0..scene.materials.len())
-        .map(|index| decide::material(scene, &views, index))
+        .map(|index| decide::material(scene, &views, index, time_ms[index]))
         .collect();
     Plan {
         schema: 1,
         scene: scene.path.clone(),
         budget_px: scene.budget.error_px,
+        budget_ms: scene.budget.time_ms,
+        profile: scene.budget.profile.name.clone(),
         permutations: permutations(&materials),
         materials,
     }
+}
+
+/// Each material's share of the time: as long a pixel for all whose technique is chosen. Pinned techniques come on top.
+fn times_ms(scene: &Scene, views: &[View]) -> Vec<Option<f64>> {
+    let area = |index: usize| -> f64 {
+        let of_material = scene
+            .objects
+            .iter()
+            .zip(views)
+            .filter(|(object, _)| object.material == index);
+        of_material.map(|(_, view)| view.area_px()).sum()
+    };
+    let areas: Vec<f64> = (0..scene.materials.len()).map(area).collect();
+    let chosen = scene
+        .materials
+        .iter()
+        .zip(&areas)
+        .filter(|(material, _)| relief::is_chosen(material));
+    let total: f64 = chosen.map(|(_, area)| area).sum();
+    let share = |area: &f64| if total > 0.0 { area / total } else { 0.0 };
+    areas
+        .iter()
+        .map(|area| Some(scene.budget.time_ms? * share(area)))
+        .collect()
 }
 
 fn permutations(materials: &[MaterialPlan]) -> Vec<Permutation> {

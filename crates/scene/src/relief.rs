@@ -1,38 +1,38 @@
 //! Whether a material's height map is used, and by which technique.
 //!
 //! Dropped, in this order: no map; constant heights; nothing textured to displace; pinned to `none`; out of view; a displacement
-//! that cannot reach the budget anywhere on screen. Otherwise the pinned technique, or the chosen one (see `choose.rs`).
+//! of less than [`LEAST_PX`] everywhere on screen. Otherwise the pinned technique, or the chosen one (see `choose.rs`), which may be
+//! none at all where the error without relief is within the budget.
 
-use bossage_shaders::{Relief, Shading};
+use bossage_shaders::Shading;
 
-use crate::choose::{Candidate, Choice, choose};
+use crate::choose::{Choice, Limits, Price, RAYS, choose};
 use crate::decide::{Decision, NO_ERROR, Subject, evidence};
 use crate::facts::HeightFacts;
-use crate::model::{HeightSource, TechniquePin};
+use crate::model::{HeightSource, Material, TechniquePin};
 use crate::plan::{Evidence, Fact, Predicted};
-use crate::predict::Truth;
+use crate::predict::{Sample, Sampler};
+use crate::technique::Technique;
 
-/// Techniques of `auto`, cheapest first. The limited form is the plain one without its division.
-const LADDER: [Relief; 2] = [Relief::ParallaxOffsetLimited, Relief::ParallaxOffset];
+/// A displacement that stays below this is not drawn, pixels.
+pub(crate) const LEAST_PX: f64 = 1.0;
 
 /// The outcome.
 pub(crate) struct ReliefPlan {
-    pub(crate) technique: Relief,
+    pub(crate) technique: Technique,
     pub(crate) decision: Decision,
     pub(crate) predicted: Predicted,
     pub(crate) choice: Option<Choice>,
+    /// Whether leaving relief out moves what is seen: within a budget or a pixel, or as pinned, and not by nothing.
+    pub(crate) approximates: bool,
 }
 
-/// The technique's id, `none` without one.
-pub(crate) fn id(relief: Relief) -> &'static str {
-    match relief {
-        Relief::None => "none",
-        Relief::ParallaxOffset => "parallax_offset",
-        Relief::ParallaxOffsetLimited => "parallax_offset_limited",
-        Relief::ParallaxSlopeAo => "parallax_slope_ao",
-        Relief::ParallaxSlopeAoDirected => "parallax_slope_ao_directed",
-        Relief::Displacement => "displacement",
-    }
+/// Whether the technique of a material is chosen by its cost, and so has a share in the scene's time.
+pub(crate) fn is_chosen(material: &Material) -> bool {
+    let varies = |height: &HeightSource| !height.field.is_flat();
+    material.technique == TechniquePin::Auto
+        && material.shading == Shading::BlinnPhong
+        && material.height.as_ref().is_some_and(varies)
 }
 
 /// Decides for one material. `textured`: whether there is a map left that a shifted coordinate would sample.
@@ -49,21 +49,13 @@ pub(crate) fn decide(subject: &Subject<'_>, textured: bool) -> ReliefPlan {
             NO_ERROR,
         );
     }
-    let displaces = pin == TechniquePin::Displacement;
-    if !textured && !displaces {
+    if !textured && pin != TechniquePin::Displacement {
         return without("no map is left that it would displace", facts, NO_ERROR);
     }
-    let truth = Truth::trace(subject.material, height, &subject.views);
-    let predict = |technique| predicted(&truth, technique, subject);
-    if let Some(technique) = pin.relief() {
-        return match technique {
-            Relief::None => without("pinned to none by the scene", facts, predict(Relief::None)),
-            Relief::Displacement => displaced(facts, predict(technique)),
-            Relief::ParallaxOffset
-            | Relief::ParallaxOffsetLimited
-            | Relief::ParallaxSlopeAo
-            | Relief::ParallaxSlopeAoDirected => pinned(technique, facts, predict(technique)),
-        };
+    let mut sampler = Sampler::new(subject.material, height, &subject.views, None);
+    if let Some(relief) = pin.relief() {
+        let technique = Technique::from(relief);
+        return pinned(technique, facts, predicted(&mut sampler, technique, subject));
     }
     let shifts_nothing = match shading {
         Shading::BlinnPhong => None,
@@ -72,17 +64,14 @@ pub(crate) fn decide(subject: &Subject<'_>, textured: bool) -> ReliefPlan {
         Shading::Dot3SinglePass | Shading::Dot3TwoPass => Some("`dot3` shifts no texture"),
     };
     if let Some(reason) = shifts_nothing {
-        without(reason, facts, predict(Relief::None))
+        without(reason, facts, predicted(&mut sampler, Technique::None, subject))
     } else if px == 0.0 {
-        without("nothing of it is in view", facts, predict(Relief::None))
-    } else if px <= subject.scene.budget.error_px {
-        without(
-            "the displacement stays within the error budget everywhere on screen",
-            facts,
-            predict(Relief::None),
-        )
+        let unseen = predicted(&mut sampler, Technique::None, subject);
+        without("nothing of it is in view", facts, unseen)
+    } else if px < LEAST_PX {
+        below_a_pixel(facts, predicted(&mut sampler, Technique::None, subject), subject)
     } else {
-        chosen(&truth, subject, facts)
+        chosen(&mut sampler, subject, facts)
     }
 }
 
@@ -111,84 +100,115 @@ fn displacement(subject: &Subject<'_>, height: &HeightSource, range: HeightFacts
         ("height_range", Fact::Numbers(vec![range.min, range.max])),
         ("elevation_uv_range", Fact::Numbers(vec![low.x, high.x])),
         ("displacement_px_max", Fact::Number(px)),
-        ("budget_px", Fact::Number(subject.scene.budget.error_px)),
     ]);
+    let budget = &subject.scene.budget;
+    facts.extend(budget.error_px.map(|px| ("budget_px", Fact::Number(px))));
+    facts.extend(subject.time_ms.map(|ms| ("budget_ms", Fact::Number(ms))));
     if tile_px > 0.0 {
         facts.insert("texels_per_px_nearest", Fact::Number(side / tile_px));
     }
     Displacement { px, facts }
 }
 
-fn predicted(truth: &Truth<'_>, technique: Relief, subject: &Subject<'_>) -> Predicted {
-    let error = truth.error(technique, subject.material.form);
-    let (error_texels_p99, error_px_p99) = (error.map(|e| e.texels_p99), error.map(|e| e.px_p99));
+fn predicted(sampler: &mut Sampler<'_>, technique: Technique, subject: &Subject<'_>) -> Predicted {
+    sampler.grow(RAYS);
+    let mut sample = Sample::default();
+    sampler.extend(technique, &mut sample);
+    let error = sample.error();
     Predicted {
-        error_texels_p99,
-        error_px_p99,
+        error_texels_p99: error.map(|error| error.texels_p99),
+        error_px_p99: error.map(|error| error.px_p99),
+        time_ms: price(subject).time_ms(technique, sample.mean_steps()),
         ..Predicted::default()
+    }
+}
+
+fn price<'a>(subject: &Subject<'a>) -> Price<'a> {
+    Price {
+        profile: &subject.scene.budget.profile,
+        pixels: subject.views.iter().map(|view| view.area_px()).sum(),
     }
 }
 
 fn without(reason: &str, facts: Evidence, predicted: Predicted) -> ReliefPlan {
     ReliefPlan {
-        technique: Relief::None,
+        technique: Technique::None,
         decision: Decision::dropped(reason, facts),
         predicted,
         choice: None,
+        approximates: false,
     }
 }
 
-fn pinned(technique: Relief, facts: Evidence, predicted: Predicted) -> ReliefPlan {
+fn below_a_pixel(facts: Evidence, predicted: Predicted, subject: &Subject<'_>) -> ReliefPlan {
+    let reason = "the displacement stays below 1 pixel everywhere on screen";
+    let (error, budget) = (predicted.error_px_p99, subject.scene.budget.error_px);
+    let reason = match error.zip(budget) {
+        Some((error, budget)) if error > budget => {
+            format!("{reason}, where relief is not worth its time; the budget is finer than that and not met")
+        }
+        _ => reason.to_owned(),
+    };
+    ReliefPlan {
+        approximates: true,
+        ..without(&reason, facts, predicted)
+    }
+}
+
+fn pinned(technique: Technique, facts: Evidence, predicted: Predicted) -> ReliefPlan {
+    let decision = match technique {
+        Technique::None => Decision::dropped("pinned to none by the scene", facts),
+        // The vertex stage does it all.
+        Technique::Displacement => Decision::dropped("the vertices themselves are displaced", facts),
+        Technique::ParallaxSlopeAo | Technique::ParallaxSlopeAoDirected | Technique::Search(_) => {
+            Decision::kept("pinned by the scene", facts)
+        }
+    };
     ReliefPlan {
         technique,
-        decision: Decision::kept("pinned by the scene", facts),
+        decision,
         predicted,
         choice: None,
+        approximates: false,
     }
 }
 
-/// The vertex stage does it all.
-fn displaced(facts: Evidence, predicted: Predicted) -> ReliefPlan {
-    ReliefPlan {
-        technique: Relief::Displacement,
-        decision: Decision::dropped("the vertices themselves are displaced", facts),
-        predicted,
-        choice: None,
-    }
-}
-
-fn chosen(truth: &Truth<'_>, subject: &Subject<'_>, facts: Evidence) -> ReliefPlan {
-    let candidate = |technique| {
-        let error = truth.error(technique, subject.material.form)?;
-        Some(Candidate {
-            technique: id(technique),
-            error,
-        })
+fn chosen(sampler: &mut Sampler<'_>, subject: &Subject<'_>, facts: Evidence) -> ReliefPlan {
+    let limits = Limits {
+        error_px: subject.scene.budget.error_px,
+        time_ms: subject.time_ms,
     };
-    let candidates: Vec<Candidate> = LADDER.into_iter().filter_map(candidate).collect();
-    let Some(choice) = choose(&candidates, subject.scene.budget.error_px) else {
+    let drawable: Vec<Technique> = Technique::ladder()
+        .into_iter()
+        .filter(|technique| technique.relief().is_some())
+        .collect();
+    let Some(choice) = choose(sampler, &drawable, limits, price(subject)) else {
         return without("it is seen from behind only", facts, Predicted::default());
     };
-    let technique = LADDER
-        .into_iter()
-        .find(|&technique| id(technique) == choice.chosen.technique)
-        .unwrap_or(Relief::None);
-    let error = choice.chosen.error;
-    let reason = if choice.meets_budget {
-        "the cheapest technique within the budget"
-    } else {
-        "no technique meets the budget: the best"
+    let chosen = &choice.chosen;
+    let reason = match (choice.meets_budget, limits.error_px, limits.time_ms) {
+        (true, Some(_), _) => "the cheapest within the budget",
+        (true, None, _) => "the most accurate within the time",
+        (false, Some(_), Some(_)) => "none meets the budget: the most accurate within the time",
+        (false, _, _) => "none meets the budget: the best",
     };
-    let reason = format!("{reason}: {}", choice.chosen.technique);
+    let reason = format!("{reason}: {}", chosen.technique);
     let predicted = Predicted {
-        error_texels_p99: Some(error.texels_p99),
-        error_px_p99: Some(error.px_p99),
+        error_texels_p99: Some(chosen.error.texels_p99),
+        error_px_p99: Some(chosen.error.px_p99),
+        time_ms: Some(chosen.time_ms),
         ..Predicted::default()
     };
+    let decision = if chosen.how == Technique::None {
+        Decision::dropped(reason, facts)
+    } else {
+        Decision::kept(reason, facts)
+    };
     ReliefPlan {
-        technique,
-        decision: Decision::kept(reason, facts),
+        technique: chosen.how,
+        decision,
         predicted,
+        approximates: chosen.how == Technique::None,
         choice: Some(choice),
     }
 }

@@ -14,7 +14,10 @@
 //! | `camera.fov_deg` | vertical field of view, in (0, 180) | required |
 //! | `camera.near`, `camera.far` | 0 < near < far | required |
 //! | `camera.size` | width and height of the image, 1 to 16384 | required |
-//! | `[budget]` `error_px` | 99th percentile of the error the planner may leave, pixels > 0 | `1` |
+//! | `[budget]` | what the planner may spend | |
+//! | `budget.error_px` | 99th percentile of the error it may leave, pixels > 0 | `1` where there is no `time_ms` |
+//! | `budget.time_ms` | time that the relief of all materials may take in a frame, milliseconds > 0 | none |
+//! | `budget.profile` | on which machine: a cost profile that is bundled (`lavapipe`), or a file `NAME.toml` | `lavapipe`; required with `time_ms` |
 //! | `[[lights]]` | at most 16 | none |
 //! | `lights.name` | unique | required |
 //! | `lights.kind` | `directional`, `point` | required |
@@ -101,6 +104,8 @@ pub const UP: DVec3 = DVec3::Y;
 pub const AMBIENT: DVec3 = DVec3::ZERO;
 /// Default `budget.error_px`.
 pub const ERROR_PX: f64 = 1.0;
+/// Default `budget.profile`.
+pub const PROFILE: &str = "lavapipe";
 /// Default `lights.color`.
 pub const LIGHT_COLOR: DVec3 = DVec3::ONE;
 /// Default `lights.intensity`.

@@ -2,15 +2,17 @@
 
 use std::fmt;
 
+use crate::choose::Candidate;
 use crate::plan::{Effect, Fact, MaterialPlan, Plan, State};
+use crate::technique::Settings;
 
 impl fmt::Display for Plan {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             out,
-            "{}   budget {} px (99th percentile)",
+            "{}   wanted: {} (99th percentile)",
             self.scene.display(),
-            Short(self.budget_px)
+            self.wanted()
         )?;
         for material in &self.materials {
             write!(out, "\n{material}")?;
@@ -36,7 +38,7 @@ impl fmt::Display for Plan {
 impl fmt::Display for MaterialPlan {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(out, "material {}", self.name)?;
-        writeln!(out, "  technique    {} ({})", self.technique, self.technique_by)?;
+        writeln!(out, "  technique    {} ({})", self.drawn_by(), self.technique_by)?;
         writeln!(out, "  shading      {} ({})", self.shading, self.shading_by)?;
         writeln!(out, "  permutation  {}", self.permutation)?;
         writeln!(out, "  predicted    {}", predicted(self))?;
@@ -53,15 +55,31 @@ impl fmt::Display for MaterialPlan {
             .iter()
             .try_for_each(|effect| writeln!(out, "  {effect}"))?;
         for other in self.choice.iter().flat_map(|choice| &choice.others) {
-            let (px, texels) = (Short(other.error.px_p99), Short(other.error.texels_p99));
-            writeln!(
-                out,
-                "  instead      {}: {px} px, {texels} texels",
-                other.technique
-            )?;
+            writeln!(out, "  instead      {other}")?;
         }
         Ok(())
     }
+}
+
+impl fmt::Display for Candidate {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (px, texels) = (Short(self.error.px_p99), Short(self.error.texels_p99));
+        let how = with_settings(self.technique, &self.settings);
+        write!(out, "{how}: {px} px, {texels} texels, {} ms", Short(self.time_ms))
+    }
+}
+
+impl MaterialPlan {
+    /// The technique with its settings, as `relief layers=16 refinements=5`.
+    #[must_use]
+    pub fn drawn_by(&self) -> String {
+        with_settings(self.technique, &self.settings)
+    }
+}
+
+fn with_settings(technique: &str, settings: &Settings) -> String {
+    let settings = settings.iter().map(|(name, value)| format!(" {name}={value}"));
+    std::iter::once(technique.to_owned()).chain(settings).collect()
 }
 
 impl fmt::Display for Effect {
@@ -121,6 +139,10 @@ fn predicted(material: &MaterialPlan) -> String {
     ) {
         (Some(px), Some(texels)) => format!("error p99 {} px, {} texels", Short(px), Short(texels)),
         _ => "no error to predict: nothing of it is seen".to_owned(),
+    };
+    let error = match material.predicted.time_ms {
+        Some(time) => format!("{error}; {} ms of relief", Short(time)),
+        None => error,
     };
     match (material.predicted.ops, material.predicted.fetches) {
         (Some(ops), Some(fetches)) => format!("{error}; {ops} operations and {fetches} fetches a pixel"),

@@ -1,7 +1,7 @@
 //! How the camera sees an object: its visible parts in pixels, how near they come, and rays through them.
 //!
 //! Triangles are clipped against the view volume in clip space (f64), so the nearest distance is that of what is seen, not
-//! of a bounding volume. Rays are drawn with equal density per pixel, by a fixed low-discrepancy sequence.
+//! of a bounding volume. Rays are equally dense per pixel.
 //!
 //! Limits. Objects do not hide each other or themselves here: a hidden part counts as if it were seen, so footprints err on
 //! the side of keeping an effect. Parts seen from behind (V·N ≤ 0) give no rays.
@@ -181,17 +181,15 @@ impl View {
         self.facets.iter().map(one).fold(0.0, f64::max)
     }
 
-    /// At most `count` rays, equally dense per pixel; fewer where parts are seen from behind or have no UV area.
-    pub(crate) fn rays(&self, count: u32) -> impl Iterator<Item = ViewRay> {
-        (0..count).filter_map(|index| {
-            let [along_area, a, b] = low_discrepancy(index);
-            let target = along_area * self.area_px();
-            let facet = self.facets.get(
-                self.facets
-                    .partition_point(|facet| facet.area_to_here_px <= target),
-            )?;
-            self.ray(facet, in_triangle(a, b))
-        })
+    /// The ray at a point of the unit cube: evenly drawn points give rays that are equally dense per pixel. None where the part
+    /// is seen from behind or has no UV area, or nothing is seen at all.
+    pub(crate) fn ray_at(&self, [along_area, a, b]: [f64; 3]) -> Option<ViewRay> {
+        let target = along_area * self.area_px();
+        let facet = self.facets.get(
+            self.facets
+                .partition_point(|facet| facet.area_to_here_px <= target),
+        )?;
+        self.ray(facet, in_triangle(a, b))
     }
 
     /// The ray through a point of a facet given by its barycentric coordinates on screen.
@@ -319,12 +317,6 @@ fn clip_plane(polygon: Vec<(DVec4, DVec3)>, distance: fn(DVec4) -> f64) -> Vec<(
     kept
 }
 
-/// Roberts' additive recurrence in three dimensions: multiples of the powers of 1/g, g the real root of g⁴ = g + 1.
-fn low_discrepancy(index: u32) -> [f64; 3] {
-    const G: f64 = 1.220_744_084_605_759_5;
-    [1.0, 2.0, 3.0].map(|power: f64| (0.5 + f64::from(index + 1) * G.powf(-power)).fract())
-}
-
 /// A uniform point of a triangle from a uniform point of the square, folding the square along its diagonal.
 fn in_triangle(a: f64, b: f64) -> DVec3 {
     let (a, b) = if a + b > 1.0 { (1.0 - a, 1.0 - b) } else { (a, b) };
@@ -335,7 +327,7 @@ fn in_triangle(a: f64, b: f64) -> DVec3 {
 mod tests {
     use glam::{DVec2, DVec3, DVec4};
 
-    use super::{clip, low_discrepancy, world_per_uv};
+    use super::{clip, world_per_uv};
 
     #[test]
     fn clipping_cuts_at_the_near_plane() {
@@ -364,16 +356,5 @@ mod tests {
         let uv = [DVec2::ZERO, DVec2::X, DVec2::Y];
         assert_eq!(world_per_uv(position, uv), Some([DVec3::X * 4.0, DVec3::Z * 2.0]));
         assert_eq!(world_per_uv(position, [DVec2::ZERO; 3]), None);
-    }
-
-    #[test]
-    fn sequence_fills_the_cube() {
-        // 512 cells of an 8x8x8 grid and 16 points a cell on average: no cell stays empty for this sequence.
-        let mut seen = [false; 512];
-        for index in 0..8192 {
-            let [x, y, z] = low_discrepancy(index).map(|v| (v * 8.0) as usize);
-            seen[x * 64 + y * 8 + z] = true;
-        }
-        assert!(seen.iter().all(|cell| *cell));
     }
 }

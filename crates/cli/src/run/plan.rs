@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use bossage_scene::{Effect, Fact, MaterialPlan, Plan, Predicted, State};
+use bossage_scene::{Candidate, Choice, Effect, Fact, MaterialPlan, Plan, Predicted, State};
 use bossage_shaders::{Library, Stage};
 
 use crate::Verdict;
@@ -47,31 +47,52 @@ pub(crate) fn add_costs(plan: &mut Plan, library: &Library) -> Result<()> {
 
 /// The plan for people.
 pub(crate) fn table(plan: &Plan) -> String {
-    let mut text = format!(
-        "{}: at most {} px of error wanted\n",
-        plan.scene.display(),
-        plan.budget_px
-    );
+    let mut text = format!("{}: wanted: {}\n", plan.scene.display(), plan.wanted());
     for material in &plan.materials {
-        text.push_str(&of_material(material));
+        text.push_str(&of_material(material, plan));
     }
     let (count, materials) = (plan.permutations.len(), plan.materials.len());
     let _ = writeln!(text, "\n{count} permutation(s) for {materials} material(s)");
     text
 }
 
-fn of_material(material: &MaterialPlan) -> String {
+fn of_material(material: &MaterialPlan, plan: &Plan) -> String {
     let name = console::heading(format_args!("material {}", material.name));
     let mut text = format!(
         "\n{name}: technique {} ({}), shading {} ({})\n",
-        material.technique, material.technique_by, material.shading, material.shading_by
+        material.drawn_by(),
+        material.technique_by,
+        material.shading,
+        material.shading_by
     );
     let _ = writeln!(text, "  permutation {}", material.permutation);
     for effect in &material.effects {
         text.push_str(&of_effect(effect));
     }
-    let _ = writeln!(text, "  predicted: {}", predicted(&material.predicted));
+    let _ = writeln!(
+        text,
+        "  predicted: {}",
+        predicted(&material.predicted, &plan.profile)
+    );
+    for line in material.choice.iter().flat_map(alternatives) {
+        let _ = writeln!(text, "  {line}");
+    }
     text
+}
+
+/// What else could have been had: whether the budget is met, the runner-up, and what less and more would buy.
+pub(crate) fn alternatives(choice: &Choice) -> Vec<String> {
+    let mut lines = Vec::new();
+    if !choice.meets_budget {
+        lines.push("budget not met: this is the best of all candidates that may be used".to_owned());
+    }
+    let mut add = |what: &str, candidate: &Option<Candidate>| {
+        lines.extend(candidate.as_ref().map(|it| format!("{what}: {it}")));
+    };
+    add("runner-up", &choice.runner_up);
+    add("less budget buys", &choice.cheaper);
+    add("more budget buys", &choice.more_accurate);
+    lines
 }
 
 fn of_effect(effect: &Effect) -> String {
@@ -124,7 +145,7 @@ pub(crate) fn short(number: f64) -> String {
 }
 
 /// The prediction in words; what is not known is left out.
-pub(crate) fn predicted(predicted: &Predicted) -> String {
+pub(crate) fn predicted(predicted: &Predicted, profile: &str) -> String {
     let mut parts = Vec::new();
     parts.extend(
         predicted
@@ -135,6 +156,11 @@ pub(crate) fn predicted(predicted: &Predicted) -> String {
         predicted
             .error_texels_p99
             .map(|error| format!("{} texels (99 % of pixels)", short(error))),
+    );
+    parts.extend(
+        predicted
+            .time_ms
+            .map(|time| format!("{} ms of relief on {profile}", short(time))),
     );
     parts.extend(predicted.ops.map(|ops| format!("{ops} operations")));
     parts.extend(

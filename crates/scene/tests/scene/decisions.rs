@@ -194,7 +194,7 @@ fn constant_heights_are_no_relief_and_one_texel_is() {
 }
 
 #[test]
-fn relief_below_the_budget_is_dropped() {
+fn relief_below_a_pixel_is_dropped() {
     let folder = Folder::new();
     bumpy(&folder);
     let at = |distance: f64, budget: f64| {
@@ -215,8 +215,13 @@ fn relief_below_the_budget_is_dropped() {
     let stretch = (1.0 + (75f64 * 75.0 + 50.0 * 50.0) / (focal * focal)).sqrt();
     let expected = focal * stretch * 0.04 / (depth - 0.04);
     assert!((px(&far) - expected).abs() < 1e-6, "{} {expected}", px(&far));
-    // The same scene with a finer budget keeps it, and the sampled error is below the bound.
-    assert_eq!(state(only(&plan(&at(20.0, 0.2))), EffectId::Relief), State::Kept);
+    // A finer budget does not bring it back, and the plan says that it is not met.
+    let fine = plan(&at(20.0, 1e-3));
+    let effect = only(&fine).effect(EffectId::Relief);
+    assert_eq!(effect.state, State::Dropped);
+    assert!(effect.reason.contains("not met"), "{}", effect.reason);
+    assert!(!only(&far).effect(EffectId::Relief).reason.contains("not met"));
+    // The sampled error is below the bound.
     let sampled = only(&far).predicted.error_px_p99.expect("rays are sampled");
     assert!(sampled > 0.0 && sampled <= px(&far), "{sampled}");
 }
@@ -259,30 +264,6 @@ fn relief_without_a_map_to_displace_is_dropped() {
     );
     // The normal map is dropped without light, and the relief with it.
     assert_eq!(decided(&folder, "", HEIGHT, "", EffectId::Relief), State::Dropped);
-}
-
-#[test]
-fn the_choice_is_the_cheapest_within_the_budget() {
-    let folder = Folder::new();
-    bumpy(&folder);
-    let with = |budget: f64| {
-        let camera = format!("{CAMERA}[budget]\nerror_px = {budget}\n");
-        plan(&folder.scene(&one_plane(SUN, HEIGHT, "").replace(CAMERA, &camera)))
-    };
-    let tight = with(1e-6);
-    let choice = only(&tight).choice.clone().expect("auto");
-    assert!(!choice.meets_budget && choice.others.len() == 1);
-    assert!(choice.chosen.error.px_p99 <= choice.others[0].error.px_p99);
-    let both = choice.chosen.error.px_p99.max(choice.others[0].error.px_p99);
-    let loose = with(both);
-    let choice = only(&loose).choice.clone();
-    // The displacement is larger than its error's percentile here, so relief is kept, in its cheaper form.
-    if let Some(choice) = choice {
-        assert!(choice.meets_budget);
-        assert_eq!(choice.chosen.technique, "parallax_offset_limited");
-    } else {
-        assert!(number(only(&loose), EffectId::Relief, "displacement_px_max") <= both);
-    }
 }
 
 #[test]

@@ -116,19 +116,19 @@ fn plans(story: &Story) -> Markup {
             h2 #plan-heading { "Plan" }
             p { "Effects are derived from what the scene holds. A dropped effect leaves nothing in any shader." }
             @for planned in &story.inputs.scenes {
-                p { "Scene: " code { (planned.scene.path.display()) } ". Wanted: at most " (planned.plan.budget_px) " px of error." }
-                @for material in &planned.plan.materials { (material_plan(material)) }
+                p { "Scene: " code { (planned.scene.path.display()) } ". Wanted: " (planned.plan.wanted()) "." }
+                @for material in &planned.plan.materials { (material_plan(material, &planned.plan.profile)) }
             }
         }
     }
 }
 
-fn material_plan(material: &MaterialPlan) -> Markup {
+fn material_plan(material: &MaterialPlan, profile: &str) -> Markup {
     html! {
         h3 { "Material " code { (material.name) } }
         p {
-            "Technique " code { (material.technique) } " (" (material.technique_by) "), permutation "
-            code { (material.permutation) } ". Predicted: " (plan::predicted(&material.predicted)) "."
+            "Technique " code { (material.drawn_by()) } " (" (material.technique_by) "), permutation "
+            code { (material.permutation) } ". Predicted: " (plan::predicted(&material.predicted, profile)) "."
         }
         div.scroll tabindex="0" role="region" aria-label={ "Effects of " (material.name) } {
             table {
@@ -137,11 +137,7 @@ fn material_plan(material: &MaterialPlan) -> Markup {
             }
         }
         @if let Some(choice) = &material.choice {
-            p {
-                "Chosen at " (plan::short(choice.chosen.error.px_p99)) " px"
-                @for other in &choice.others { "; " code { (other.technique) } " would be off by " (plan::short(other.error.px_p99)) " px" }
-                ". The budget is " (if choice.meets_budget { "met." } else { "not met by any technique here." })
-            }
+            ul { @for line in plan::alternatives(choice) { li { (line) } } }
         }
     }
 }
