@@ -84,6 +84,54 @@ fn resources_and_locations_are_where_the_source_has_them() {
     }
 }
 
+/// A texture and a sampler that are handed on through two functions, and one texture that is handed on to be loaded from.
+const HANDED_ON: &str = "
+    @group(0) @binding(3) var heights: texture_2d<f32>;
+    @group(1) @binding(1) var table: texture_2d<f32>;
+    @group(0) @binding(5) var shared_sampler: sampler;
+    @group(0) @binding(0) var<storage, read_write> out: array<f32>;
+    fn read(map: texture_2d<f32>, by: sampler, uv: vec2f) -> f32 { return textureSampleLevel(map, by, uv, 0.0).r; }
+    fn first(map: texture_2d<f32>, scale: f32, row: vec2u) -> f32 { return scale * textureLoad(map, row, 0).r; }
+    fn search(map: texture_2d<f32>, rows: texture_2d<f32>, by: sampler, uv: vec2f) -> f32 {
+        return read(map, by, uv) + read(map, by, uv.yx) + first(rows, 2.0, vec2u(0u)) + f32(textureDimensions(map).x);
+    }
+    @compute @workgroup_size(1) fn main() { out[0] = search(heights, table, shared_sampler, vec2f(0.5)); }";
+
+#[test]
+fn textures_that_are_handed_to_functions_are_where_the_source_has_them() {
+    let Some(tools) = support::tool("glslangValidator") else {
+        return;
+    };
+    let shader = Shader::parse("handed_on", &Source::Wgsl(HANDED_ON.to_owned())).unwrap();
+    let emitted = emit(&shader, Target::Glsl, &options()).unwrap();
+    let manifest = manifest(&shader, &options(), std::slice::from_ref(&emitted));
+    let made = to_spirv(&emitted, &manifest.entries[0], &options(), &tools, None).unwrap();
+    let kinds: BTreeSet<_> = places(&made.bytes).0;
+    let at = |group, binding| {
+        kinds
+            .iter()
+            .filter(|(_, g, b)| (*g, *b) == (group, binding))
+            .count()
+    };
+    assert_eq!([at(0, 3), at(1, 1), at(0, 5), at(0, 0)], [1; 4], "{kinds:?}");
+}
+
+/// One function that is called with two textures: no one variable can take the parameter's place.
+#[test]
+fn a_function_of_two_textures_is_refused_for_what_it_is() {
+    let Some(tools) = support::tool("glslangValidator") else {
+        return;
+    };
+    let text = HANDED_ON.replace("read(map, by, uv.yx)", "read(rows, by, uv.yx)");
+    let shader = Shader::parse("two", &Source::Wgsl(text)).unwrap();
+    let emitted = emit(&shader, Target::Glsl, &options()).unwrap();
+    let manifest = manifest(&shader, &options(), std::slice::from_ref(&emitted));
+    let refused = to_spirv(&emitted, &manifest.entries[0], &options(), &tools, None)
+        .map(|_| ())
+        .unwrap_err();
+    assert!(refused.contains("different textures"), "{refused}");
+}
+
 #[test]
 fn a_register_that_is_stated_wrongly_is_refused() {
     let Some(tools) = support::tool("dxc") else { return };

@@ -23,6 +23,7 @@ mod compile;
 mod dxc;
 mod folders;
 mod glslang;
+mod parameters;
 mod relocate;
 mod run;
 mod spirv_val;

@@ -3,8 +3,8 @@
 //! HLSL links stages by semantics, and DXC counts locations in the order of declaration: each `LOCn` goes to location n.
 //!
 //! GLSL has one number for each of our (group, binding), and joins a texture and its sampler in one variable, which WebGPU's
-//! bindings lack: such a variable becomes a texture and a sampler, joined again where they are read. Code and constants stay as
-//! they are.
+//! bindings lack: such a variable becomes a texture and a sampler, joined again where they are read; functions that are handed one
+//! read it themselves (`parameters`). Code and constants stay as they are.
 
 use std::collections::BTreeMap;
 
@@ -43,6 +43,7 @@ pub(super) fn glsl(bytes: &[u8], entry: &Entry) -> Result<Vec<u8>, String> {
     let mut module = read(bytes)?;
     let places = places(&module, entry)?;
     move_resources(&mut module, &places);
+    super::parameters::inline_textures(&mut module)?;
     Splitter::new(&mut module, entry, &places)?.run();
     Ok(bytes_of(&module))
 }
@@ -295,7 +296,7 @@ fn instruction(op: Op, ty: Option<Word>, result: Option<Word>, operands: Vec<Ope
     Instruction::new(op, ty, result, operands)
 }
 
-fn fresh(module: &mut Module) -> Word {
+pub(super) fn fresh(module: &mut Module) -> Word {
     module.header.as_mut().map_or(0, |header| {
         header.bound += 1;
         header.bound - 1
