@@ -1,6 +1,6 @@
 //! What the library emits, as text that a reviewer reads: one snapshot a technique and target, and one index of everything.
 //!
-//! `snapshots/TECHNIQUE@TARGET.snap` holds the probe of a technique's main function; `surface_…@TARGET.snap` hold two whole
+//! `snapshots/TECHNIQUE@TARGET.snap` holds the probe of a technique's main function, of a search along view rays its kernel; `surface_…@TARGET.snap` hold two whole
 //! surfaces. `snapshots/permutations@index.snap` has one line a module that the feature model can reach: static cost, and a
 //! hash of each target's file, so that any change of any emitted byte shows as a readable patch. `docs/testing.md` says how
 //! to review and accept.
@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 
 use bossage_shaders::{Albedo, Alpha, Transform};
 use bossage_shaders::{
-    AssembledShader, FeatureSet, Form, Library, Lights, NormalSource, PROBES, Probe, Relief, Stage,
-    TECHNIQUES, Technique,
+    AssembledShader, FeatureSet, Form, HeightRead, Kernel, Library, Lights, NormalSource, PROBES, Probe,
+    Relief, ReliefSearch, ReliefTechnique, Stage, TECHNIQUES, Technique,
 };
 use bossage_translate::emit::spirv_listing;
 use bossage_translate::{Contents, Cost, EmitOptions, Emitted, Shader, Source, Target, emit, manifest};
@@ -53,6 +53,20 @@ fn readable(emitted: &Emitted) -> String {
     texts.collect::<Vec<_>>().join("\n")
 }
 
+/// The module that stands for a technique: that of a search for the hit, where it is one whose function takes textures; else the
+/// probe of its main function.
+fn main_module(library: &Library, technique: &Technique) -> AssembledShader {
+    let search = ReliefTechnique::find(technique.id).filter(|_| Probe::find(technique.id).is_none());
+    let assembled = match search {
+        Some(technique) => library.assemble_kernel(Kernel::ReliefHits(ReliefSearch {
+            technique,
+            heights: HeightRead::Filtered,
+        })),
+        None => library.assemble_probe(main_probe(technique).id),
+    };
+    assembled.expect("the library assembles")
+}
+
 /// The function that stands for a technique: the one of its name if there is one, else its first hardened probe.
 fn main_probe(technique: &Technique) -> &'static Probe {
     let mut own = PROBES.iter().filter(|probe| probe.technique == technique.id);
@@ -87,9 +101,7 @@ fn surfaces() -> [(&'static str, FeatureSet); 2] {
 fn plan(library: &Library) -> Vec<(String, Target, Vec<AssembledShader>)> {
     let mut rows = Vec::new();
     for technique in TECHNIQUES {
-        let assembled = library
-            .assemble_probe(main_probe(technique).id)
-            .expect("probes assemble");
+        let assembled = main_module(library, technique);
         rows.extend(
             Target::ALL
                 .iter()

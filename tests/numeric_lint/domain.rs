@@ -36,6 +36,12 @@ fn range(field: &Field, at: usize, reach: &str) -> Vec<String> {
         Role::Unorm | Role::Height => one("0", "1"),
         Role::Snorm => one("-1", "1"),
         Role::Scale => one("-64", "64"),
+        Role::Layer => vec![
+            format!("{} = {{ lo = 0, hi = 1 }}", key(at, at + 1)),
+            format!("{} = {{ lo = -1, hi = 1 }}", key(at + 1, at + 2)),
+            format!("{} = {{ lo = 0.015625, hi = 64 }}", key(at + 2, at + 3)),
+        ],
+        Role::Above => one("-1", "-1e-9"),
         Role::Slope => one("-1e9", "1e9"),
         Role::Weight => one("0", "1e18"),
         Role::Elevation => one("-1", "1"),

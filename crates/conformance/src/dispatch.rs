@@ -21,6 +21,15 @@ use crate::route::Prepared;
 /// The contents of a buffer over acceptance intervals: one for each scalar of its type, without padding.
 pub(crate) type Accepted = Vec<Scalar<Accept>>;
 
+/// Who mixes texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Filtering {
+    /// A sampler of hardware, or of a driver: it has 8 bits of the weights.
+    OfHardware,
+    /// The evaluator: exact weights.
+    Ideal,
+}
+
 /// What a kernel is dispatched with.
 #[derive(Clone, Debug)]
 pub(crate) struct Dispatch<'a> {
@@ -58,6 +67,16 @@ impl Dispatch<'_> {
         module: &Prepared,
         known: &BTreeMap<String, Accepted>,
     ) -> Result<BTreeMap<String, Accepted>, String> {
+        self.accepted_by(module, known, Filtering::OfHardware)
+    }
+
+    /// The same, where it is known who filters textures.
+    pub(crate) fn accepted_by(
+        &self,
+        module: &Prepared,
+        known: &BTreeMap<String, Accepted>,
+        filtering: Filtering,
+    ) -> Result<BTreeMap<String, Accepted>, String> {
         let entry = self.kernel.entry();
         let program = module.program(entry)?;
         let shader = Shader {
@@ -73,6 +92,9 @@ impl Dispatch<'_> {
                     .buffers
                     .insert(one.place, Contents::Scalars(contents.clone()));
             }
+        }
+        for sampler in bound.samplers.values_mut().flatten() {
+            sampler.ideal = filtering == Filtering::Ideal;
         }
         let outcome = run_compute(&program, &mut bound, self.workgroups(), &Limits::default())
             .map_err(|error| with_causes(&error))?;

@@ -12,7 +12,7 @@ use bossage_shaders::{AssembledShader, FeatureSet, Kernel, Library, ProbeId, Sta
 pub enum Module {
     /// One function over arrays.
     Probe(ProbeId),
-    /// A bake or frame kernel.
+    /// A compute kernel.
     Kernel(Kernel),
     /// One stage of the surface.
     Surface {
@@ -41,7 +41,7 @@ impl fmt::Display for Module {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Probe(id) => write!(f, "probe of {id}"),
-            Self::Kernel(kernel) => f.write_str(kernel.entry()),
+            Self::Kernel(kernel) => f.write_str(&kernel.name()),
             Self::Surface { features, stage } => write!(f, "surface, {stage:?} of {features:?}"),
         }
     }

@@ -38,6 +38,10 @@ pub const MISSED: &[(&str, &str)] = &[
         "normal_transform",
         "cofactors of ill-conditioned matrices (condition up to 64), columns divided by their largest component, cancel",
     ),
+    (
+        "patch_along",
+        "the height over the ray is a sum of numbers up to 1, which cancels where the ray comes near the surface",
+    ),
 ];
 
 /// Items that quantiles are taken over: the random inputs of an ordinary run, which a full run begins with.

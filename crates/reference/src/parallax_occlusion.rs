@@ -7,17 +7,17 @@
 
 use glam::DVec2;
 
-use crate::relief_ray::Ray;
+use crate::relief_ray::{Ray, step_count};
 use crate::steep_parallax::first_below;
 
-/// Where the secant meets the ray; 0 where the ray enters under the surface. No layer counts as one.
+/// Where the secant meets the ray; 0 where the ray enters under the surface. Layers as [`step_count`] has them.
 #[must_use]
 pub fn secant(ray: &Ray, layers: u32, height: impl Fn(DVec2) -> f64) -> f64 {
     let below = first_below(ray, layers, &height);
     if below == 0.0 {
         return 0.0;
     }
-    let step = 1.0 / f64::from(layers.max(1));
+    let step = 1.0 / f64::from(step_count(layers));
     let above = below - step;
     let f = |t: f64| height(ray.at(t)) - (1.0 - t);
     let (f0, f1) = (f(above), f(below));

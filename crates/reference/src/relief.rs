@@ -8,14 +8,14 @@
 
 use glam::DVec2;
 
-use crate::relief_ray::Ray;
+use crate::relief_ray::{Ray, step_count};
 use crate::steep_parallax::first_below;
 
-/// The end of the bracket that lies under the surface, after `bisections` halvings. No layer counts as one.
+/// The end of the bracket that lies under the surface, after `bisections` halvings. Layers as [`step_count`] has them.
 #[must_use]
 pub fn bisect(ray: &Ray, layers: u32, bisections: u32, height: impl Fn(DVec2) -> f64) -> f64 {
     let mut below = first_below(ray, layers, &height);
-    let mut size = 1.0 / f64::from(layers.max(1));
+    let mut size = 1.0 / f64::from(step_count(layers));
     if below == 0.0 {
         return 0.0;
     }

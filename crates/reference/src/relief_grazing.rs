@@ -90,6 +90,12 @@ impl<'a> Surface<'a> {
         }
     }
 
+    /// The greatest difference between neighbouring texels along each axis.
+    #[must_use]
+    pub fn steepest(&self) -> DVec2 {
+        self.steepest
+    }
+
     /// All hits that count for a ray.
     #[must_use]
     pub fn answers(&self, ray: &Ray) -> Answers {

@@ -18,6 +18,15 @@ use crate::parallax_offset;
 /// The smallest V.z that a ray is traced with, about 87° from the normal: a ray crosses at most 20 thicknesses of the layer.
 pub const MIN_VIEW_Z: f64 = parallax_offset::MIN_VIEW_Z;
 
+/// The most layers or steps that a search takes.
+pub const MAX_STEPS: u32 = 4096;
+
+/// How many layers or steps a search takes that is asked for so many: at least one, at most [`MAX_STEPS`].
+#[must_use]
+pub fn step_count(wanted: u32) -> u32 {
+    wanted.clamp(1, MAX_STEPS)
+}
+
 /// Where the relief lies over the polygon.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
@@ -93,6 +102,19 @@ pub enum Status {
     CapReached,
     /// An input was NaN or infinite: nothing was searched, t is 0 and uv the one given.
     NonFinite,
+}
+
+impl Status {
+    /// The number that stands for it in a shader's hit record.
+    #[must_use]
+    pub fn number(self) -> u32 {
+        match self {
+            Self::Hit => 0,
+            Self::Clamped => 1,
+            Self::CapReached => 2,
+            Self::NonFinite => 3,
+        }
+    }
 }
 
 /// What every relief technique answers, and what colour, depth and shadow are made from.

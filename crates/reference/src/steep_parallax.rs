@@ -7,12 +7,13 @@
 
 use glam::DVec2;
 
-use crate::relief_ray::Ray;
+use crate::relief_ray::{Ray, step_count};
 
-/// The first of the samples t = 0, 1/layers, … 1 that lies on or under the surface; 1 where none does. No layer counts as one.
+/// The first of the samples t = 0, 1/layers, … 1 that lies on or under the surface; 1 where none does. Layers as [`step_count`]
+/// has them.
 #[must_use]
 pub fn first_below(ray: &Ray, layers: u32, height: impl Fn(DVec2) -> f64) -> f64 {
-    let last = layers.max(1);
+    let last = step_count(layers);
     let t = |layer: u32| f64::from(layer) / f64::from(last);
     let below = |layer: &u32| height(ray.at(t(*layer))) >= 1.0 - t(*layer);
     t((0..last).find(below).unwrap_or(last))

@@ -1,5 +1,7 @@
 //! The compute kernels of the library: where each stands, and what its entry point is called.
 
+use crate::relief_search::ReliefSearch;
+
 /// A compute kernel of the library. Bindings and domain are in the doc of its file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Kernel {
@@ -31,10 +33,12 @@ pub enum Kernel {
     NormalisationCubeMapLookup,
     /// One invocation a direction, filtered within a face.
     NormalisationCubeMapLookupInFace,
+    /// One invocation a view ray: where it meets the relief.
+    ReliefHits(ReliefSearch),
 }
 
 impl Kernel {
-    /// Every kernel.
+    /// Every kernel that has one form; [`Kernel::all`] has those with several too.
     pub const ALL: [Kernel; 14] = [
         Kernel::HeightToNormal,
         Kernel::HeightToNormalForward,
@@ -52,7 +56,36 @@ impl Kernel {
         Kernel::NormalisationCubeMapLookupInFace,
     ];
 
-    /// The entry point, which is also the assembled module's name.
+    /// Every kernel.
+    pub fn all() -> impl Iterator<Item = Kernel> {
+        Self::ALL
+            .into_iter()
+            .chain(ReliefSearch::all().map(Kernel::ReliefHits))
+    }
+
+    /// The assembled module's name: the entry point's, and behind it what distinguishes modules that share one.
+    #[must_use]
+    pub fn name(self) -> String {
+        match self {
+            Kernel::ReliefHits(search) => format!(
+                "{}-{}-{}",
+                self.entry(),
+                search.technique.id(),
+                search.heights.id()
+            ),
+            other => other.entry().to_owned(),
+        }
+    }
+
+    /// The features that are on in its module, sorted.
+    pub(crate) fn features(self) -> Vec<&'static str> {
+        match self {
+            Kernel::ReliefHits(search) => search.features(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The entry point.
     #[must_use]
     pub fn entry(self) -> &'static str {
         match self {
@@ -70,6 +103,7 @@ impl Kernel {
             Kernel::NormalMipsEncode => "bake_normal_mips_encode",
             Kernel::NormalisationCubeMapLookup => "normalisation_cube_map_lookup",
             Kernel::NormalisationCubeMapLookupInFace => "normalisation_cube_map_lookup_in_face",
+            Kernel::ReliefHits(_) => "relief_hits",
         }
     }
 
@@ -90,7 +124,8 @@ impl Kernel {
             | Kernel::NormalMipsDecode
             | Kernel::NormalMipsEncode
             | Kernel::NormalisationCubeMapLookup
-            | Kernel::NormalisationCubeMapLookupInFace => [64, 1, 1],
+            | Kernel::NormalisationCubeMapLookupInFace
+            | Kernel::ReliefHits(_) => [64, 1, 1],
         }
     }
 
@@ -113,6 +148,7 @@ impl Kernel {
             Kernel::NormalisationCubeMapLookup | Kernel::NormalisationCubeMapLookupInFace => {
                 "entry/normalisation_cube_map_lookup.wesl"
             }
+            Kernel::ReliefHits(_) => "entry/relief_hits.wesl",
         }
     }
 }

@@ -34,6 +34,7 @@ mod probe;
 mod probe_entry;
 mod probes;
 mod read;
+mod relief_search;
 mod source;
 mod stage;
 mod technique;
@@ -48,6 +49,7 @@ pub use kernel::Kernel;
 pub use library::{AssembledShader, Library};
 pub use probe::{Field, Probe, ProbeId, Role, Shape, WORKGROUP_SIZE};
 pub use probes::PROBES;
+pub use relief_search::{HeightRead, ReliefSearch, ReliefTechnique};
 pub use stage::{FragmentKey, Pass, Stage, VertexKey};
 pub use technique::{TECHNIQUES, Technique};
 

@@ -147,6 +147,18 @@ impl Library {
         all
     }
 
+    /// The functions of `lib/` and `techniques/` that take a texture, by name: no probe can bind one, so kernels run them.
+    #[must_use]
+    pub fn texture_functions(&self) -> Vec<String> {
+        let pure =
+            |source: &&Source| source.file.starts_with("lib/") || source.file.starts_with("techniques/");
+        self.sources
+            .values()
+            .filter(pure)
+            .flat_map(Source::texture_functions)
+            .collect()
+    }
+
     /// One stage of the surface shader for a feature set (taken in its canonical form). Without a second pass, the module of
     /// [`Stage::SecondPass`] is that of the first.
     ///
@@ -211,17 +223,12 @@ impl Library {
         Ok(shader)
     }
 
-    /// A bake or frame kernel.
+    /// A compute kernel.
     ///
     /// # Errors
     /// When the sources do not assemble.
     pub fn assemble_kernel(&self, kernel: Kernel) -> Result<AssembledShader> {
-        self.assemble(
-            kernel.file(),
-            kernel.entry(),
-            kernel.entry().to_owned(),
-            Vec::new(),
-        )
+        self.assemble(kernel.file(), kernel.entry(), kernel.name(), kernel.features())
     }
 
     fn assemble(
@@ -294,7 +301,7 @@ fn fragment(key: &FragmentKey, capture: bool) -> (&'static str, &'static str, Ve
 /// The files that tables name, and therefore must exist.
 fn roots() -> Vec<&'static str> {
     let mut files = vec![VERTEX_FILE, FRAGMENT_FILE];
-    files.extend(Kernel::ALL.iter().map(|kernel| kernel.file()));
+    files.extend(Kernel::all().map(Kernel::file));
     files.extend(TECHNIQUES.iter().flat_map(|technique| technique.files));
     files.extend(PROBES.iter().map(|probe| probe.file));
     files

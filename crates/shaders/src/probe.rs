@@ -96,6 +96,10 @@ pub enum Role {
     Height,
     /// A height scale or bias: in texture units, or texels a byte step.
     Scale,
+    /// A relief layer: scale ≥ 0 and bias in widths of the tile, and the tile's width over its height.
+    Layer,
+    /// A gap of a sample above the surface, in [−1, 0), rarely near 0.
+    Above,
     /// A factor from height difference to slope.
     Slope,
     /// A sum of areas, not negative: at least the length of the sums beside it.

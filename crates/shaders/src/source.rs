@@ -65,6 +65,25 @@ impl Source {
             .collect()
     }
 
+    /// The names of the functions that take a texture.
+    pub(crate) fn texture_functions(&self) -> Vec<String> {
+        let takes = |function: &wesl::syntax::Function| {
+            function
+                .parameters
+                .iter()
+                .any(|parameter| parameter.ty.to_string().starts_with("texture_"))
+        };
+        let names = self
+            .syntax
+            .global_declarations
+            .iter()
+            .filter_map(|it| match it.node() {
+                GlobalDeclaration::Function(function) if takes(function) => declared_name(it.node()),
+                _ => None,
+            });
+        names.collect()
+    }
+
     /// What it imports, with paths made absolute from `here`.
     pub(crate) fn imports(&self, here: &ModulePath) -> Vec<Imported> {
         let mut found = Vec::new();

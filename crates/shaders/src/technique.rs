@@ -69,6 +69,12 @@ pub const TECHNIQUES: &[Technique] = &[
         source: HEIGHT_MAPS,
     },
     Technique {
+        id: "cone_step",
+        files: &["techniques/cone_step.wesl", "entry/relief_hits.wesl"],
+        forms: HARDENED,
+        source: "Dummer, Cone Step Mapping (2006)",
+    },
+    Technique {
         id: "displacement",
         files: &["techniques/displacement.wesl"],
         forms: HARDENED,
@@ -103,6 +109,12 @@ pub const TECHNIQUES: &[Technique] = &[
         files: &["techniques/environment_bump.wesl"],
         forms: BOTH,
         source: DOT3,
+    },
+    Technique {
+        id: "exact",
+        files: &["techniques/exact.wesl", "entry/relief_hits.wesl"],
+        forms: HARDENED,
+        source: "the closed first root of the bilinear patch; no single source",
     },
     Technique {
         id: "frame_from_normal",
@@ -165,6 +177,18 @@ pub const TECHNIQUES: &[Technique] = &[
         source: DOT3,
     },
     Technique {
+        id: "parallax_iterative",
+        files: &["techniques/parallax_iterative.wesl", "entry/relief_hits.wesl"],
+        forms: HARDENED,
+        source: "Premecz, Iterative Parallax Mapping with Slope Information (2006)",
+    },
+    Technique {
+        id: "parallax_occlusion",
+        files: &["techniques/parallax_occlusion.wesl", "entry/relief_hits.wesl"],
+        forms: HARDENED,
+        source: "Brawley and Tatarchuk, Parallax Occlusion Mapping (2004)",
+    },
+    Technique {
         id: "parallax_offset",
         files: &["techniques/parallax_offset.wesl"],
         forms: BOTH,
@@ -187,6 +211,24 @@ pub const TECHNIQUES: &[Technique] = &[
         files: &["techniques/parallax_slope_ao_directed.wesl"],
         forms: HARDENED,
         source: SLOPE_AO,
+    },
+    Technique {
+        id: "relaxed_cone_step",
+        files: &["techniques/relaxed_cone_step.wesl", "entry/relief_hits.wesl"],
+        forms: HARDENED,
+        source: "Policarpo and Oliveira, Relaxed Cone Stepping for Relief Mapping (2007)",
+    },
+    Technique {
+        id: "relief",
+        files: &["techniques/relief.wesl", "entry/relief_hits.wesl"],
+        forms: HARDENED,
+        source: "Policarpo et al., Real-Time Relief Mapping on Arbitrary Polygonal Surfaces (2005)",
+    },
+    Technique {
+        id: "steep_parallax",
+        files: &["techniques/steep_parallax.wesl", "entry/relief_hits.wesl"],
+        forms: HARDENED,
+        source: "McGuire and McGuire, Steep Parallax Mapping (2005)",
     },
     Technique {
         id: "wrap_lambert",

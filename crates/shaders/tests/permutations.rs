@@ -96,7 +96,7 @@ fn the_validator_is_not_blind() -> Result<()> {
 #[test]
 fn every_kernel_is_valid_and_has_its_entry() -> Result<()> {
     let library = Library::embedded()?;
-    for kernel in Kernel::ALL {
+    for kernel in Kernel::all() {
         let shader = library.assemble_kernel(kernel)?;
         let module = validate(&shader).unwrap_or_else(|message| panic!("{message}"));
         let [entry] = &module.entry_points[..] else {

@@ -130,6 +130,9 @@ fn every_feature_is_used_and_every_used_one_is_known() -> Result<()> {
             on.extend(library.assemble_surface(&set, stage)?.features);
         }
     }
+    for kernel in Kernel::all() {
+        on.extend(library.assemble_kernel(kernel)?.features);
+    }
     assert_eq!(on.into_iter().collect::<Vec<_>>(), library.features_used());
     Ok(())
 }
@@ -309,8 +312,11 @@ fn every_function_has_a_probe() -> Result<()> {
                 .iter()
                 .any(|probe| probe.file == file && probe.function() == name)
         };
+        let bound = library.texture_functions();
         functions
-            .filter(|(file, name)| !EXEMPT.contains(&name.as_str()) && !probed(file, name))
+            .filter(|(file, name)| {
+                !EXEMPT.contains(&name.as_str()) && !bound.contains(name) && !probed(file, name)
+            })
             .map(|(_, name)| name)
             .collect()
     };
@@ -323,6 +329,30 @@ fn every_function_has_a_probe() -> Result<()> {
         "fn unprobed() {}\n\nfn lambert",
     );
     assert_eq!(missing(&Library::from_dir(folder.path())?), ["unprobed"]);
+    Ok(())
+}
+
+#[test]
+fn every_function_that_takes_a_texture_is_in_a_kernel() -> Result<()> {
+    let missing = |library: &Library| -> Result<Vec<String>> {
+        let kernels: Vec<String> = Kernel::all()
+            .map(|kernel| library.assemble_kernel(kernel).map(|module| module.wgsl))
+            .collect::<Result<_>>()?;
+        let mut functions = library.texture_functions();
+        functions.retain(|name| !kernels.iter().any(|text| text.contains(&format!("fn {name}("))));
+        Ok(functions)
+    };
+    let library = Library::embedded()?;
+    assert!(library.texture_functions().contains(&"height_at".to_owned()));
+    assert_eq!(missing(&library)?, [""; 0]);
+    let folder = copy();
+    edit(
+        folder.path(),
+        "lib/lambert.wesl",
+        "fn lambert",
+        "fn unreached(map: texture_2d<f32>) {}\n\nfn lambert",
+    );
+    assert_eq!(missing(&Library::from_dir(folder.path())?)?, ["unreached"]);
     Ok(())
 }
 
@@ -407,8 +437,8 @@ fn the_readme_lists_every_technique_and_file() {
 #[test]
 fn an_id_of_another_table_is_an_error_and_not_a_panic() -> Result<()> {
     assert!(Probe::find("no_such_probe").is_none());
-    let names: BTreeSet<&str> = Kernel::ALL.iter().map(|kernel| kernel.entry()).collect();
-    assert_eq!(names.len(), Kernel::ALL.len());
+    let names: BTreeSet<String> = Kernel::all().map(Kernel::name).collect();
+    assert_eq!(names.len(), Kernel::all().count());
     let error = Error::UnknownProbe("x".to_owned());
     assert_eq!(error.to_string(), "there is no probe `x`");
     Ok(())

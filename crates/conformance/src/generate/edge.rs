@@ -71,6 +71,7 @@ pub fn hard_values(field: &Field) -> Vec<Vec<f32>> {
         Role::Position => edges().into_iter().map(|v| v.to_vec()).collect(),
         Role::Weight => vec![vec![0.0], vec![1.0], vec![1e-10], vec![100.0], vec![8e37]],
         Role::Edge => edges().into_iter().map(|v| v.to_vec()).collect(),
+        Role::Layer => layers(),
         role => spread(scalars(role), field.shape),
     }
 }
@@ -156,6 +157,7 @@ fn scalars(role: Role) -> Vec<f32> {
         Role::Face => vec![0.0, 1.0, 2.0, 3.0, 4.0, 5.0],
         Role::Gain => vec![0.0, 1.0, 40.0, 1e-6, 1000.0, SUBNORMAL],
         Role::Length => vec![1.0, 0.5, 1e-10, 1e10, f32::MIN_POSITIVE, 8e37],
+        Role::Above => vec![-1.0, -0.5, -1.0 / 255.0, -f32::EPSILON, -0.25],
         Role::SnormOne => vec![127.0, 32_767.0],
         Role::SnormCode => vec![
             0.0, 1.0, -1.0, 127.0, -127.0, -128.0, 32_767.0, -32_767.0, -32_768.0,
@@ -172,9 +174,25 @@ fn scalars(role: Role) -> Vec<f32> {
         | Role::Rigid
         | Role::Edge
         | Role::Position
+        | Role::Layer
         | Role::Weight => Vec::new(),
         Role::Output | Role::Direction => vec![0.0],
     }
+}
+
+/// Relief layers: as the articles have them, hanging below the polygon, standing on it, without thickness, tiles that are not square.
+fn layers() -> Vec<Vec<f32>> {
+    [
+        [0.04, -0.02, 1.0],
+        [0.05, -0.05, 1.0],
+        [0.05, 0.0, 2.0],
+        [0.0, 0.0, 1.0],
+        [0.0, 0.1, 1.0],
+        [1e-6, -1e-6, 1.0],
+        [1.0, -0.5, 0.125],
+    ]
+    .map(Vec::from)
+    .to_vec()
 }
 
 /// Unit vectors: the axes, the axis (−1, 1, 1) of the published frame, and grazing angles on both sides.

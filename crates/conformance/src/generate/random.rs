@@ -47,6 +47,7 @@ fn value(field: &Field, rng: &mut Pcg64Mcg) -> Vec<f32> {
         Role::Rigid => rigid(rng),
         Role::Position => scaled(unit64(rng), log_uniform(rng, -4.0, 8.0)).to_vec(),
         Role::Weight => vec![weight(rng)],
+        Role::Layer => layer(rng),
         Role::Edge => scaled(unit64(rng), log_uniform(rng, -10.0, 10.0)).to_vec(),
         role => (0..field.shape.floats()).map(|_| scalar(role, rng)).collect(),
     }
@@ -66,6 +67,7 @@ fn scalar(role: Role, rng: &mut Pcg64Mcg) -> f32 {
         Role::UvEdge => 2.0 * unorm - 1.0,
         Role::Colour => 4.0 * unorm,
         Role::Exponent => log_uniform(rng, -2.0, 12.0) as f32,
+        Role::Above => -(unorm.max(1.0 / 65_536.0)),
         Role::Sign => sign(rng),
         Role::Byte => rng.random_range(0..=255u32) as f32,
         Role::Index => rng.random_range(-70_000..=70_000i32) as f32,
@@ -88,6 +90,7 @@ fn scalar(role: Role, rng: &mut Pcg64Mcg) -> f32 {
         | Role::Rigid
         | Role::Edge
         | Role::Position
+        | Role::Layer
         | Role::Weight => unorm,
         Role::Output | Role::Direction => 0.0,
     }
@@ -173,6 +176,12 @@ fn rigid(rng: &mut Pcg64Mcg) -> Vec<f32> {
 /// A sum of areas, of the size that the vectors beside it have for the most part.
 fn weight(rng: &mut Pcg64Mcg) -> f32 {
     log_uniform(rng, -3.0, 8.0) as f32
+}
+
+/// A thickness of up to half a tile, its bottom up to half a tile below or above the polygon, on tiles of any sides.
+fn layer(rng: &mut Pcg64Mcg) -> Vec<f32> {
+    let (scale, bias) = (0.5 * rng.random::<f32>(), rng.random::<f32>() - 0.5);
+    vec![scale, bias, log_uniform(rng, -3.0, 3.0) as f32]
 }
 
 fn floats(m: DMat3) -> Vec<f32> {

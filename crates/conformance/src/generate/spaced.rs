@@ -122,6 +122,11 @@ fn value(field: &Field, place: &mut Place<'_>) -> Vec<f32> {
                 .to_cols_array()
                 .to_vec()
         }
+        Role::Layer => vec![
+            place.between(0.0, 0.5),
+            place.between(-0.5, 0.5),
+            place.power(-3.0, 3.0),
+        ],
         role => (0..field.shape.floats()).map(|_| scalar(role, place)).collect(),
     };
     values.into_iter().map(|x| x as f32).collect()
@@ -157,6 +162,7 @@ fn scalar(role: Role, place: &mut Place<'_>) -> f64 {
         Role::Exponent => place.power(-2.0, 12.0),
         Role::Weight => place.power(-3.0, 8.0),
         Role::Length => place.power(-126.0, 126.0),
+        Role::Above => -place.power(-16.0, 0.0),
         Role::Sign => place.either(-1.0, 1.0),
         Role::Byte => place.whole(0, 255),
         Role::Index => place.whole(-70_000, 70_000),
@@ -177,6 +183,7 @@ fn scalar(role: Role, place: &mut Place<'_>) -> f64 {
         | Role::Rigid
         | Role::Position
         | Role::Edge
+        | Role::Layer
         | Role::Output
         | Role::Direction => 0.0,
     }

@@ -51,6 +51,14 @@ pub(super) fn mend(field: &Field, values: &mut [f64]) {
         Role::Exponent => each(values, 0.25, 4096.0),
         Role::Gain => each(values, 0.0, 64.0),
         Role::Length => each(values, 1.0 / 256.0, 256.0),
+        Role::Layer => {
+            if let [scale, bias, v_factor] = values {
+                each(std::slice::from_mut(scale), 0.0, 0.5);
+                each(std::slice::from_mut(bias), -0.5, 0.5);
+                each(std::slice::from_mut(v_factor), 0.125, 8.0);
+            }
+        }
+        Role::Above => each(values, -1.0, -1.0 / 65_536.0),
         Role::Sign => one_of(values, -1.0, 1.0),
         Role::SnormOne => one_of(values, 127.0, 32_767.0),
         Role::UnormOne => one_of(values, 255.0, 65_535.0),

@@ -9,6 +9,7 @@ pub mod mikktspace;
 pub mod mips_bake;
 pub mod normalisation_cube_map;
 pub mod probe;
+pub mod relief;
 pub mod scene;
 
 use std::path::PathBuf;
@@ -39,6 +40,7 @@ pub fn cases(scope: &Scope) -> Vec<Box<dyn Case>> {
     cases.extend(mesh::cases());
     cases.extend(mikktspace::cases());
     cases.extend(normalisation_cube_map::cases());
+    cases.extend(relief::cases());
     cases.extend(scene::cases(&scope.scenes));
     cases.extend(scene::permutations::cases(scope.full));
     cases.extend(scene::vertices::cases());

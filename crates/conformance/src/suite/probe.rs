@@ -106,6 +106,12 @@ pub fn id(probe: &Probe, generator: &str) -> CaseId {
     }
 }
 
+/// The form that names of cases have for a technique's hardened form: none where there is but one.
+pub(crate) fn form_of(technique: &str) -> Option<&'static str> {
+    let both = Technique::find(technique).is_some_and(|technique| technique.forms.len() > 1);
+    both.then(|| Form::Hardened.as_str())
+}
+
 impl ProbeCase {
     fn new(probe: &'static Probe, generator: Generator) -> Self {
         let id = match generator {

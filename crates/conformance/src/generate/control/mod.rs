@@ -7,6 +7,7 @@ mod codecs;
 mod cubes;
 mod frames;
 mod relief;
+mod search;
 mod shading;
 
 use bossage_shaders::Probe;
@@ -58,6 +59,7 @@ pub fn table() -> impl Iterator<Item = &'static Known> {
         cubes::ROWS,
         frames::ROWS,
         relief::ROWS,
+        search::ROWS,
         shading::ROWS,
     ]
     .into_iter()

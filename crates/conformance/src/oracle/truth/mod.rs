@@ -8,6 +8,7 @@ mod codecs;
 mod cubes;
 mod frames;
 mod relief;
+mod search;
 mod shading;
 
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4};
@@ -22,12 +23,13 @@ pub type Truth = fn(&mut Args<'_, f64>) -> Vec<f64>;
 /// The rows of one topic.
 type Rows = &'static [(&'static str, Truth)];
 
-const TABLES: [Rows; 6] = [
+const TABLES: [Rows; 7] = [
     below::ROWS,
     codecs::ROWS,
     cubes::ROWS,
     frames::ROWS,
     relief::ROWS,
+    search::ROWS,
     shading::ROWS,
 ];
 

@@ -1,0 +1,100 @@
+//! The parts of searches along a view ray.
+
+use super::{HALF_ROOT, Known, known};
+
+pub(super) const ROWS: &[Known] = &[
+    // A layer of 1/2 that hangs below the polygon, seen at 45°: it is entered at the polygon, and crossed by 1/2 away from the eye.
+    known(
+        "relief_ray",
+        &[0.25, 0.5, HALF_ROOT as f32, 0.0, HALF_ROOT as f32, 0.5, -0.5, 1.0],
+        &[0.25, 0.5, -0.5, 0.0, 0.0],
+    ),
+    // Half above: entered 1/4 nearer to the eye. Tiles twice as wide as high: along v all counts twice.
+    known(
+        "relief_ray",
+        &[0.0, 0.0, 0.0, HALF_ROOT as f32, HALF_ROOT as f32, 0.5, -0.25, 2.0],
+        &[0.0, 0.5, 0.0, -1.0, 0.0],
+    ),
+    // From the side and from below: as flat as it gets, 20 thicknesses, and said so.
+    known(
+        "relief_ray",
+        &[0.0, 0.0, 1.0, 0.0, 0.0, 0.5, -0.5, 1.0],
+        &[0.0, 0.0, -10.0, 0.0, 1.0],
+    ),
+    known(
+        "relief_ray",
+        &[0.0, 0.0, 0.0, 0.0, -1.0, 0.5, 0.0, 1.0],
+        &[0.0, 0.0, 0.0, 0.0, 1.0],
+    ),
+    known("is_finite", &[0.0, -1.0, f32::MAX], &[1.0]),
+    known("step_count", &[0.0], &[1.0]),
+    known("step_count", &[64.0], &[64.0]),
+    known("step_count", &[5000.0], &[4096.0]),
+    // Four texels along x, half a texel along y.
+    known("relief_level", &[0.25, 0.0, 0.0, 0.03125, 16.0, 16.0], &[2.0]),
+    known("relief_level", &[0.0, 0.0, 0.0, 0.0, 16.0, 16.0], &[0.0]),
+    known("secant_share", &[-0.25, 0.75], &[0.25]),
+    known("secant_share", &[-0.25, 0.0], &[1.0]),
+    // The floor.
+    known("secant_share", &[-0.25, -0.125], &[1.0]),
+    known("march_gap", &[0.75, 0.5], &[0.25]),
+    known("march_gap", &[0.25, 0.5], &[-0.25]),
+    known("lower_end", &[0.75, 0.5, 0.125], &[0.5]),
+    known("lower_end", &[0.75, 0.5, 0.0], &[0.5]),
+    known("lower_end", &[0.75, 0.5, -0.125], &[0.75]),
+    // Three quarters of a tile of 4 texels along v are 3 of 8 texels: the longer side is along u.
+    known("cone_reach", &[0.0, 0.75, 8.0, 4.0], &[0.375]),
+    known("cone_reach", &[0.375, -0.5, 8.0, 8.0], &[0.625]),
+    known("cone_reach", &[0.0, 0.0, 8.0, 4.0], &[0.0]),
+    known("cone_advance", &[0.5, 0.25, 0.75], &[0.125]),
+    known("cone_advance", &[0.5, 0.25, 0.0], &[0.5]),
+    known("cone_advance", &[0.5, 0.0, 0.75], &[0.0]),
+    known("cone_advance", &[0.0, 0.25, 0.75], &[0.0]),
+    known("toward_surface", &[0.25, 0.5], &[0.25]),
+    known("toward_surface", &[0.25, -0.5], &[-0.25]),
+    known("toward_surface", &[0.25, 0.0], &[-0.25]),
+    known("iterative_step", &[0.75, 0.25, 0.5], &[0.25]),
+    known("iterative_step", &[-0.25, 0.25, 0.5], &[-0.25]),
+    known("ray_grid", &[4.0, -0.5], &[0.25, -2.0, 1.0, 0.0, 1.0, -1.0]),
+    known("ray_grid", &[0.0, 8.0], &[4.0, 0.125, 2.0, 1.0, 0.0, 1.0]),
+    // The least travel that is one, and the next below.
+    known(
+        "ray_grid",
+        &[2.384_185_8e-7, 2.384_185_6e-7],
+        &[4_194_304.0, 4.0, 1.0, 2.0, 1.0, 0.0],
+    ),
+    // Level ground at 1/4 below a ray at the height 3/4.
+    known(
+        "patch_along",
+        &[0.25, 0.25, 0.25, 0.25, 0.5, 0.5, 3.0, 4.0, 0.25],
+        &[-0.5, 1.0, 0.0],
+    ),
+    // The saddle 0 1 / 1 0 from its first corner: 2 s + 1 along x and y, and −2 s² of the twist.
+    known(
+        "patch_along",
+        &[0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0],
+        &[-1.0, 3.0, -2.0],
+    ),
+    known(
+        "patch_along",
+        &[0.0, 1.0, 0.0, 1.0, 0.5, 0.25, 2.0, 1.0, 0.5],
+        &[0.0, 3.0, 0.0],
+    ),
+    // −1/4 + s.
+    known("patch_root", &[-0.25, 1.0, 0.0, 1.0], &[0.25]),
+    known("patch_root", &[-0.25, 1.0, 0.0, 0.125], &[-1.0]),
+    // −1/4 + s²: a half, from ground that begins level.
+    known("patch_root", &[-0.25, 0.0, 1.0, 1.0], &[0.5]),
+    // −3/16 − s/2 + s²: falls away first, and comes back at 3/4.
+    known("patch_root", &[-0.1875, -0.5, 1.0, 1.0], &[0.75]),
+    known("patch_root", &[-0.1875, -0.5, 1.0, 0.625], &[-1.0]),
+    // −3/16 + s − s²: the first of 1/4 and 3/4.
+    known("patch_root", &[-0.1875, 1.0, -1.0, 1.0], &[0.25]),
+    // Never.
+    known("patch_root", &[-0.5, 1.0, -1.0, 1.0], &[-1.0]),
+    known("patch_root", &[-0.5, -0.5, -1.0, 1.0], &[-1.0]),
+    known("patch_root", &[-0.5, 0.0, 0.0, 1.0], &[-1.0]),
+    // On or above the surface already.
+    known("patch_root", &[0.0, -1.0, 0.0, 1.0], &[0.0]),
+    known("patch_root", &[0.5, 1.0, 1.0, 0.0], &[0.0]),
+];

@@ -1,0 +1,120 @@
+//! The parts of searches along a view ray.
+
+use bossage_reference::cone_step;
+use bossage_reference::relief_ray::{Entry, Layer, Ray, step_count};
+use bossage_reference::vector::SMALLEST_NORMAL_F32;
+use glam::DVec2;
+
+use super::{A, Rows, v2, v3};
+
+pub(super) const ROWS: Rows = &[
+    ("relief_ray", relief_ray),
+    ("is_finite", |a| vec![f64::from(u8::from(v3(a).is_finite()))]),
+    ("step_count", |a| vec![f64::from(step_count(a.scalar() as u32))]),
+    ("relief_level", |a| {
+        let (along_x, along_y, size) = (v2(a), v2(a), v2(a));
+        let longest = (along_x * size).length().max((along_y * size).length());
+        vec![longest.max(1.0).log2()]
+    }),
+    // Where the line through (0, before) and (1, gap) is 0; the floor's gap counts as 0.
+    ("secant_share", |a| {
+        let (before, gap) = (a.scalar(), a.scalar().max(0.0));
+        vec![before / (before - gap)]
+    }),
+    ("march_gap", |a| vec![a.scalar() + a.scalar() - 1.0]),
+    ("lower_end", |a| {
+        let (t, middle, gap) = (a.scalar(), a.scalar(), a.scalar());
+        vec![if gap < 0.0 { t } else { middle }]
+    }),
+    ("cone_reach", |a| {
+        let (delta, sides) = (v2(a), v2(a));
+        let ray = Ray {
+            uv_top: DVec2::ZERO,
+            delta,
+        };
+        vec![cone_step::reach(&ray, sides)]
+    }),
+    // A cone that opens by `ratio` a height meets a ray that travels `reach` a thickness.
+    ("cone_advance", |a| {
+        let [gap, ratio, reach] = a.array();
+        vec![if reach < SMALLEST_NORMAL_F32 {
+            gap
+        } else {
+            gap * ratio / (ratio + reach)
+        }]
+    }),
+    ("toward_surface", |a| {
+        let (half, gap) = (a.scalar(), a.scalar());
+        vec![if gap > 0.0 { half } else { -half }]
+    }),
+    ("iterative_step", |a| {
+        let [surface, elevation, normal_z] = a.array();
+        vec![(surface - elevation) * normal_z]
+    }),
+    ("ray_grid", |a| {
+        let axes: [[f64; 3]; 2] = a.array().map(grid);
+        (0..3).flat_map(|part| axes.map(|axis| axis[part])).collect()
+    }),
+    ("patch_along", patch_along),
+    ("patch_root", |a| {
+        let [c, b, a2] = a.array();
+        vec![first_root(c, b, a2, a.scalar()).unwrap_or(-1.0)]
+    }),
+];
+
+/// Along one axis: the inverse of the travel, the side by which a square is left, and the way. Less travel than 2⁻²² is none.
+fn grid(along: f64) -> [f64; 3] {
+    if along.abs() < 2f64.powi(-22) {
+        [4.0, 2.0, 0.0]
+    } else if along > 0.0 {
+        [1.0 / along, 1.0, 1.0]
+    } else {
+        [1.0 / along, 0.0, -1.0]
+    }
+}
+
+/// The bilinear patch along place + s · along, over the ray's height 1 − t − s, by the powers of s.
+fn patch_along(a: A<'_, '_>) -> Vec<f64> {
+    let [h00, h10, h01, h11] = a.array();
+    let (f, d, t) = (v2(a), v2(a), a.scalar());
+    let g = DVec2::ONE - f;
+    let height = h00 * g.x * g.y + h10 * f.x * g.y + h01 * g.x * f.y + h11 * f.x * f.y;
+    let slope = DVec2::new(
+        (h10 - h00) * g.y + (h11 - h01) * f.y,
+        (h01 - h00) * g.x + (h11 - h10) * f.x,
+    );
+    let twist = h00 - h10 - h01 + h11;
+    vec![height - 1.0 + t, slope.dot(d) + 1.0, twist * d.x * d.y]
+}
+
+/// The smallest s in [0, length] where c + b s + a s² is not below 0.
+fn first_root(c: f64, b: f64, a: f64, length: f64) -> Option<f64> {
+    if c >= 0.0 {
+        return Some(0.0);
+    }
+    let discriminant = b * b - 4.0 * a * c;
+    // c < 0, so of two roots of one sign, or of the only positive one, the first from 0 on is −2c / (b + √Δ).
+    let s = if b >= 0.0 {
+        -2.0 * c / (b + discriminant.sqrt())
+    } else {
+        (discriminant.sqrt() - b) / (2.0 * a)
+    };
+    (discriminant >= 0.0 && s > 0.0 && s <= length).then_some(s)
+}
+
+fn relief_ray(a: A<'_, '_>) -> Vec<f64> {
+    let (uv, view) = (v2(a), v3(a));
+    let [scale, bias, v_factor] = a.array();
+    let entry = Entry::new(
+        uv,
+        view,
+        &Layer {
+            scale,
+            bias,
+            v_factor,
+        },
+    );
+    let DVec2 { x, y } = entry.ray.uv_top;
+    let DVec2 { x: dx, y: dy } = entry.ray.delta;
+    vec![x, y, dx, dy, f64::from(entry.status.number())]
+}

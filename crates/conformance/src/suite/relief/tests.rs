@@ -1,0 +1,168 @@
+//! Shaders that are broken on purpose are refused: on the evaluator, without an adapter.
+
+use bossage_embedded::Embedded;
+use bossage_shaders::{HeightRead, Library, ReliefSearch, ReliefTechnique};
+
+use super::cones::ConeCase;
+use super::exact::ExactCase;
+use super::maps;
+use super::marching::MarchCase;
+use crate::bench::Bench;
+use crate::case::Case;
+use crate::route::Route;
+use crate::verdict::Verdict;
+
+/// The case of a technique on a map: of its own promises where it has such.
+fn case(technique: ReliefTechnique, map: &str) -> Box<dyn Case> {
+    let field = maps::all().into_iter().find(|(name, _)| *name == map).unwrap().1;
+    let heights = HeightRead::FourLoads;
+    let search = ReliefSearch { technique, heights };
+    match technique {
+        ReliefTechnique::Exact => Box::new(ExactCase::new(heights, map, field)),
+        ReliefTechnique::ConeStep | ReliefTechnique::RelaxedConeStep => {
+            Box::new(ConeCase::new(search, map, field))
+        }
+        _ => Box::new(MarchCase::new(search, map, field)),
+    }
+}
+
+fn verdict(library: &Library, technique: ReliefTechnique, map: &str) -> (Verdict, String) {
+    let machine = Embedded::new();
+    let outcome = case(technique, map).run(&Bench::new(&machine, Route::Embedded, library));
+    (outcome.verdict, outcome.reason.unwrap_or_default())
+}
+
+/// The library with one text in one file replaced.
+fn broken(file: &str, was: &str, is: &str) -> Library {
+    let folder = tempfile::tempdir().unwrap();
+    let shaders = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shaders");
+    for entry in walk(&shaders) {
+        let to = folder.path().join(entry.strip_prefix(&shaders).unwrap());
+        std::fs::create_dir_all(to.parent().unwrap()).unwrap();
+        std::fs::copy(&entry, &to).unwrap();
+    }
+    let path = folder.path().join(file);
+    let text = std::fs::read_to_string(&path).unwrap();
+    assert!(text.contains(was), "{file} has no `{was}`");
+    std::fs::write(&path, text.replacen(was, is, 1)).unwrap();
+    Library::from_dir(folder.path()).unwrap_or_else(|why| panic!("{why}"))
+}
+
+fn walk(dir: &std::path::Path) -> Vec<std::path::PathBuf> {
+    let entries = std::fs::read_dir(dir).unwrap().map(|entry| entry.unwrap().path());
+    entries
+        .flat_map(|path| if path.is_dir() { walk(&path) } else { vec![path] })
+        .collect()
+}
+
+/// File, text, what it becomes, and the technique that must be refused for it.
+const FAULTS: &[(&str, &str, &str, ReliefTechnique)] = &[
+    // The first layer is left out.
+    (
+        "techniques/steep_parallax.wesl",
+        "var layer = 1u;",
+        "var layer = 2u;",
+        ReliefTechnique::SteepParallax,
+    ),
+    // The secant from the wrong end.
+    (
+        "techniques/parallax_occlusion.wesl",
+        "march.step * (1.0 - secant",
+        "march.step * (secant",
+        ReliefTechnique::ParallaxOcclusion,
+    ),
+    // The upper end of the bracket.
+    (
+        "techniques/relief.wesl",
+        "select(t, middle, gap >= 0.0)",
+        "select(middle, t, gap >= 0.0)",
+        ReliefTechnique::Relief,
+    ),
+    // Steps by half of the gap.
+    (
+        "techniques/parallax_iterative.wesl",
+        "(surface - elevation) * normal_z",
+        "0.5 * (surface - elevation) * normal_z",
+        ReliefTechnique::ParallaxIterative,
+    ),
+    // Cones four times as wide.
+    (
+        "techniques/cone_step.wesl",
+        "gap * (ratio / (ratio + reach))",
+        "gap * (4.0 * ratio / (4.0 * ratio + reach))",
+        ReliefTechnique::ConeStep,
+    ),
+    // A ray that is not there yet says that it is.
+    (
+        "techniques/cone_step.wesl",
+        "select(STATUS_CAP_REACHED, ray.status",
+        "select(ray.status, ray.status",
+        ReliefTechnique::ConeStep,
+    ),
+    // Bisection away from the surface.
+    (
+        "techniques/relaxed_cone_step.wesl",
+        "select(-half, half, gap > 0.0)",
+        "select(half, -half, gap > 0.0)",
+        ReliefTechnique::RelaxedConeStep,
+    ),
+    // The other root.
+    (
+        "techniques/exact.wesl",
+        "(root - quadratic.y) / max",
+        "(root + quadratic.y) / max",
+        ReliefTechnique::Exact,
+    ),
+    // Nodes that are too low are walked over.
+    (
+        "techniques/exact.wesl",
+        "<= top + NODE_SLACK",
+        "<= top - 0.2",
+        ReliefTechnique::Exact,
+    ),
+    // Wrong texels beyond the border.
+    (
+        "lib/edge.wesl",
+        "min(k, 2 * n - 1 - k)",
+        "min(k, n - 1)",
+        ReliefTechnique::Exact,
+    ),
+    // Without the cap a view from the side has no end; with another one its hits lie elsewhere.
+    (
+        "lib/relief_ray.wesl",
+        "max(view_dir_ts.z, MIN_VIEW_Z)",
+        "max(view_dir_ts.z, 0.1)",
+        ReliefTechnique::Exact,
+    ),
+    // The status of a clamped ray.
+    (
+        "lib/relief_ray.wesl",
+        "select(STATUS_HIT, STATUS_CLAMPED, view_dir_ts.z < MIN_VIEW_Z)",
+        "STATUS_HIT",
+        ReliefTechnique::SteepParallax,
+    ),
+    // Not finite, and not said.
+    (
+        "lib/relief_ray.wesl",
+        "is_finite(view_dir_ts) && is_finite(layer)",
+        "is_finite(layer)",
+        ReliefTechnique::ParallaxOcclusion,
+    ),
+];
+
+#[test]
+fn the_library_as_it_is_keeps_its_promises() {
+    let library = Library::embedded().unwrap();
+    for technique in ReliefTechnique::ALL {
+        let (verdict, reason) = verdict(&library, technique, "noise");
+        assert_eq!(verdict, Verdict::Pass, "{technique:?}: {reason}");
+    }
+}
+
+#[test]
+fn what_is_broken_is_refused() {
+    for (file, was, is, technique) in FAULTS {
+        let (verdict, reason) = verdict(&broken(file, was, is), *technique, "noise");
+        assert_eq!(verdict, Verdict::Fail, "{file}: `{is}` passes: {reason}");
+    }
+}
