@@ -13,7 +13,13 @@
 //! # Ok::<(), serde_json::Error>(())
 //! ```
 
+pub mod chart;
 mod error;
+pub mod flip;
+pub mod pareto;
 pub mod record;
+pub mod report;
+#[cfg(test)]
+mod sample;
 
 pub use error::Error;

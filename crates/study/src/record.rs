@@ -69,7 +69,7 @@ pub struct Point {
     /// Steps a ray of the reference search in f64; the mean. None for shaders that have no reference.
     #[serde(default)]
     pub steps: Option<f64>,
-    /// Whether no other point of the same map and angle is both faster and more accurate (p99).
+    /// Whether no other point of the same map and angle is at least as fast and as accurate (p99), and better in one of both.
     pub pareto: bool,
     /// The command that makes this point again.
     pub rerun: String,

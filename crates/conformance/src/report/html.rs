@@ -4,9 +4,10 @@
 //! colours follow the reader's light or dark setting and never carry meaning alone. No cell of the matrix is empty:
 //! what was not run says so.
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 use super::matrix::{Cell, Matrix, Row};
+use super::page::Page;
 use super::{CaseResult, Report};
 use crate::verdict::Verdict;
 
@@ -15,32 +16,20 @@ const STYLE: &str = include_str!("style.css");
 /// The whole page.
 #[must_use]
 pub fn write(report: &Report) -> String {
-    page("Bossage numeric conformance", &body(report)).into_string()
+    let page = Page {
+        title: "Bossage numeric conformance",
+        style: STYLE,
+        parts: &[],
+        main: body(report),
+        script: "",
+    };
+    page.write()
 }
 
-/// The report without the page around it, for embedding in another page.
+/// The report without the page around it, for embedding in another [`Page`].
 #[must_use]
 pub fn fragment(report: &Report) -> String {
     html! { style { (PreEscaped(STYLE)) } (body(report)) }.into_string()
-}
-
-fn page(title: &str, content: &Markup) -> Markup {
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (title) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                header { h1 { (title) } }
-                main { (content) }
-            }
-        }
-    }
 }
 
 fn body(report: &Report) -> Markup {

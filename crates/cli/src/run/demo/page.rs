@@ -7,10 +7,11 @@ use std::fmt::Write;
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD as BASE64;
+use bossage_conformance::report::page::Page;
 use bossage_scene::{Effect, MaterialPlan, State};
 use bossage_translate::external::{CheckState, State as ToolState};
 use bossage_translate::{Contents, EmittedFile, Target};
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, PreEscaped, html};
 
 use super::{Shot, Story};
 use crate::error::Result;
@@ -22,49 +23,31 @@ const STYLE: &str = include_str!("style.css");
 
 /// The whole page.
 pub(super) fn write(story: &Story) -> Result<String> {
-    let title = "Bossage: a scene, end to end";
-    let code = code(story)?;
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { (title) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                a.skip-link href="#main" { "Skip to the result" }
-                header { h1 { (title) } (contents()) }
-                main #main {
-                    (summary(story))
-                    (pictures(story))
-                    (plans(story))
-                    (code)
-                    (checks(story))
-                    (conformance(story))
-                }
-            }
-        }
+    let main = html! {
+        (summary(story))
+        (pictures(story))
+        (plans(story))
+        (code(story)?)
+        (checks(story))
+        (conformance(story))
     };
-    Ok(page.into_string())
+    let page = Page {
+        title: "Bossage: a scene, end to end",
+        style: STYLE,
+        parts: &PARTS,
+        main,
+        script: "",
+    };
+    Ok(page.write())
 }
 
-fn contents() -> Markup {
-    let parts = [
-        ("picture", "Picture"),
-        ("plan", "Plan"),
-        ("code", "Code"),
-        ("checks", "Checks"),
-        ("conformance", "Conformance"),
-    ];
-    html! {
-        nav aria-label="Parts of this page" {
-            ul { @for (id, name) in parts { li { a href={ "#" (id) } { (name) } } } }
-        }
-    }
-}
+const PARTS: [(&str, &str); 5] = [
+    ("picture", "Picture"),
+    ("plan", "Plan"),
+    ("code", "Code"),
+    ("checks", "Checks"),
+    ("conformance", "Conformance"),
+];
 
 fn summary(story: &Story) -> Markup {
     let verdict = if story.is_fine() {
