@@ -2,7 +2,8 @@
 //!
 //! Every candidate searches the same rays of this scene in f64; what it misses is its error, and its steps times the cost profile's
 //! figures are its time. A candidate meets an error budget if the **upper bound** of its 99th percentile does (see `percentile.rs`).
-//! While a cheaper candidate than the cheapest that does is in doubt, it gets four times the rays, up to [`MOST_RAYS`].
+//! It starts with [`FIRST_RAYS`]. While a cheaper candidate than the cheapest that does is in doubt, it gets four times as many, up to
+//! [`MOST_RAYS`]; what was chosen, and what is shown beside it, gets at least [`RAYS`].
 //!
 //! | budget | chosen | where nothing meets it |
 //! |---|---|---|
@@ -20,10 +21,12 @@ use crate::profile::Profile;
 use crate::technique::{Settings, Technique};
 use crate::views::View;
 
-/// Rays of a material at first.
+/// Rays by which a candidate is first looked at.
+const FIRST_RAYS: u32 = 1024;
+/// Rays behind a figure that is shown.
 pub(crate) const RAYS: u32 = 4096;
 /// Rays of a material at most.
-pub(crate) const MOST_RAYS: u32 = 1 << 18;
+const MOST_RAYS: u32 = 1 << 18;
 
 /// A technique that could be used, with what it would cost.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -63,6 +66,14 @@ pub struct Choice {
     pub more_accurate: Option<Candidate>,
     /// All others, cheapest first.
     pub others: Vec<Candidate>,
+}
+
+impl Choice {
+    /// The choice and what plans show beside it.
+    fn shown(&self) -> impl Iterator<Item = &Candidate> {
+        let beside = [&self.runner_up, &self.cheaper, &self.more_accurate];
+        beside.into_iter().flatten().chain([&self.chosen])
+    }
 }
 
 /// What a material may cost. At least one is given.
@@ -132,24 +143,33 @@ pub(crate) fn choose(
 ) -> Option<Choice> {
     let priced = techniques.iter().filter(|it| price.time_ms(**it, 0.0).is_some());
     let mut trials: Vec<Trial> = priced.copied().map(Trial::new).collect();
-    let mut rays = RAYS;
+    let mut rays = FIRST_RAYS;
     sampler.grow(rays);
-    for trial in &mut trials {
-        sampler.extend(trial.technique, &mut trial.sample);
-    }
+    let first = sampler.len();
+    sampler.grow(RAYS);
+    let shown = sampler.len();
+    trials.iter_mut().for_each(|trial| trial.extend(sampler, first));
     loop {
         let candidates = cheapest_first(&trials, price);
+        let choice = decide(&candidates, limits)?;
         let doubtful = doubtful(&candidates, &trials, limits);
-        if doubtful.is_empty() || rays >= MOST_RAYS {
-            return decide(&candidates, limits);
+        let thin: Vec<Technique> = choice
+            .shown()
+            .filter(|it| it.rays < shown)
+            .map(|it| it.how)
+            .collect();
+        let (asked, count) = if rays < MOST_RAYS && !doubtful.is_empty() {
+            rays *= 4;
+            sampler.grow(rays);
+            (doubtful, sampler.len())
+        } else {
+            (thin, shown)
+        };
+        if asked.is_empty() {
+            return Some(choice);
         }
-        rays *= 4;
-        sampler.grow(rays);
-        for trial in trials
-            .iter_mut()
-            .filter(|trial| doubtful.contains(&trial.technique))
-        {
-            sampler.extend(trial.technique, &mut trial.sample);
+        for trial in trials.iter_mut().filter(|trial| asked.contains(&trial.technique)) {
+            trial.extend(sampler, count);
         }
     }
 }
@@ -166,6 +186,11 @@ impl Trial {
             technique,
             sample: Sample::default(),
         }
+    }
+
+    /// Asks about the first `count` rays, those that were not asked about yet.
+    fn extend(&mut self, sampler: &Sampler<'_>, count: usize) {
+        sampler.extend(self.technique, &mut self.sample, count);
     }
 
     fn candidate(&self, price: Price<'_>) -> Option<Candidate> {

@@ -161,6 +161,7 @@ impl Subject<'_> {
             name: self.material.name.clone(),
             technique: Technique::from(features.relief).id(),
             settings: relief.technique.settings(),
+            how: relief.technique,
             technique_by: chosen(self.material.technique == TechniquePin::Auto, "auto", "pinned"),
             shading: features.shading.as_str(),
             shading_by: chosen(self.material.shading == Shading::BlinnPhong, "auto", "pinned"),

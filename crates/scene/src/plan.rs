@@ -14,7 +14,7 @@ use crate::choose::Choice;
 use crate::decide;
 use crate::model::Scene;
 use crate::relief;
-use crate::technique::Settings;
+use crate::technique::{Settings, Technique};
 use crate::views::{Footprint, View};
 
 /// What a scene calls for.
@@ -83,6 +83,9 @@ pub struct MaterialPlan {
     pub technique: &'static str,
     /// Its settings.
     pub settings: Settings,
+    /// Both as one value.
+    #[serde(skip)]
+    pub how: Technique,
     /// `auto` or `pinned`: who decided the technique.
     pub technique_by: &'static str,
     /// What light does: `blinn_phong`, or the id of the shading.

@@ -73,7 +73,7 @@ pub fn measure(
     let mut sampler = Sampler::new(material, height, &views.iter().collect::<Vec<_>>(), Some(seed));
     sampler.grow(rays);
     let mut sample = Sample::default();
-    sampler.extend(technique, &mut sample);
+    sampler.extend(technique, &mut sample, sampler.len());
     let px = sample.px()?;
     Some(Measured {
         error: sample.error()?,
@@ -188,13 +188,18 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Asks a technique about the rays that its sample has not seen.
-    pub(crate) fn extend(&self, technique: Technique, sample: &mut Sample) {
+    /// How many rays there are.
+    pub(crate) fn len(&self) -> usize {
+        self.rays.len()
+    }
+
+    /// Asks a technique about the first `count` rays, but for those that its sample has seen.
+    pub(crate) fn extend(&self, technique: Technique, sample: &mut Sample, count: usize) {
         let size = DVec2::new(
             f64::from(self.height.field.width),
             f64::from(self.height.field.height),
         );
-        for (ray, truth) in &self.rays[sample.len()..] {
+        for (ray, truth) in self.rays.iter().take(count).skip(sample.len()) {
             let (off, steps) = self.off(technique, ray, *truth);
             sample.texels.push((off * size).length());
             sample

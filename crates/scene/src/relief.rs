@@ -113,7 +113,7 @@ fn displacement(subject: &Subject<'_>, height: &HeightSource, range: HeightFacts
 fn predicted(sampler: &mut Sampler<'_>, technique: Technique, subject: &Subject<'_>) -> Predicted {
     sampler.grow(RAYS);
     let mut sample = Sample::default();
-    sampler.extend(technique, &mut sample);
+    sampler.extend(technique, &mut sample, sampler.len());
     let error = sample.error();
     Predicted {
         error_texels_p99: error.map(|error| error.texels_p99),
