@@ -1,8 +1,7 @@
 //! Cones over many steps, by what safe maps promise.
 //!
 //! Values of such a march have no useful interval: each step builds on the one before. What is promised instead: `cone_step` never
-//! passes the true first hit; a record says hit exactly where the ray is within `CLOSE_HEIGHT` of the surface; and with so many
-//! steps `relaxed_cone_step` with a bisection that ends in one crossing is at the true hit wherever it says so.
+//! passes the true first hit, and a record of either technique says hit exactly where the ray is within `CLOSE_HEIGHT` of the surface.
 
 use bossage_assets::HeightField;
 use bossage_bounds::SUBTEXEL;

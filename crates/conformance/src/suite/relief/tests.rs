@@ -19,9 +19,7 @@ fn case(technique: ReliefTechnique, map: &str) -> Box<dyn Case> {
     let search = ReliefSearch { technique, heights };
     match technique {
         ReliefTechnique::Exact => Box::new(ExactCase::new(heights, map, field)),
-        ReliefTechnique::ConeStep | ReliefTechnique::RelaxedConeStep => {
-            Box::new(ConeCase::new(search, map, field))
-        }
+        ReliefTechnique::ConeStep => Box::new(ConeCase::new(search, map, field)),
         _ => Box::new(MarchCase::new(search, map, field)),
     }
 }
