@@ -25,6 +25,7 @@ fn main() {
     whole_index(&library, &mut table);
     no_op(&mut table);
     bake(&mut table);
+    quick_study(&mut table);
     table.row("peak memory", peak_memory());
     println!("{}", table.0);
 }
@@ -277,6 +278,26 @@ fn no_op(table: &mut Table) {
     let [samples] = measure(31, [&mut call]);
     table.row("emit again, nothing changed (process included)", samples.spread());
     table.goal("  median", samples.median().as_secs_f64() * 1e3, 50.0, " ms");
+}
+
+/// The first look at what accuracy costs, with the driver that is there.
+fn quick_study(table: &mut Table) {
+    let out = tempfile::tempdir().expect("a temporary folder");
+    let start = Instant::now();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_bossage"));
+    command.args(["study", "--quick", "--quiet", "-o"]).arg(out.path());
+    let output = command.output().expect("the binary starts");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    table.goal(
+        "study --quick, once (process included)",
+        start.elapsed().as_secs_f64(),
+        60.0,
+        " s",
+    );
 }
 
 fn bake(table: &mut Table) {

@@ -55,6 +55,12 @@ pub enum Error {
     /// Conformance could not start, or could not be reported.
     #[error(transparent)]
     Conform(#[from] bossage_conformance::Error),
+    /// A study could not be made.
+    #[error(transparent)]
+    Study(#[from] bossage_study::Error),
+    /// A study could not be drawn.
+    #[error(transparent)]
+    Report(#[from] bossage_study::report::Error),
     /// A value cannot be what it is; the message says which and what to do.
     #[error("{0}")]
     Call(String),
@@ -82,6 +88,7 @@ impl Error {
         match self {
             Self::Run(error) if error.is_missing_environment() => 3,
             Self::Conform(error) if error.is_missing_environment() => 3,
+            Self::Study(error) if error.is_missing_environment() => 3,
             Self::Read { .. }
             | Self::Scene(_)
             | Self::Library(_)
@@ -89,6 +96,8 @@ impl Error {
             | Self::Asset(_)
             | Self::Run(_)
             | Self::Conform(_)
+            | Self::Study(_)
+            | Self::Report(_)
             | Self::Write { .. }
             | Self::Collision { .. }
             | Self::Call(_)

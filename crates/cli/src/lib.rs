@@ -16,6 +16,7 @@
 //! ```
 
 mod args;
+mod bundle;
 mod console;
 mod cube_files;
 mod depfile;
@@ -105,6 +106,7 @@ fn dispatch(cli: Cli) -> Result<Verdict> {
         Command::Render(args) => run::render::run(&args, &cli.global, console),
         Command::Doctor(args) => run::doctor::run(&args),
         Command::Conform(args) => run::conform::run(&args, &cli.global, console),
+        Command::Study(args) => run::study::run(&args, &cli.global, console),
         Command::Demo(args) => run::demo::run(&args, &cli.global, console),
     }
 }

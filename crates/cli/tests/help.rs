@@ -14,6 +14,7 @@ const COMMANDS: &[&str] = &[
     "emit",
     "check",
     "conform",
+    "study",
     "render",
     "bake",
     "doctor",

@@ -50,6 +50,12 @@ impl Answers {
         !self.others.is_empty()
     }
 
+    /// Texels a tile, along u and v.
+    #[must_use]
+    pub fn sides(&self) -> DVec2 {
+        self.sides
+    }
+
     /// Distance of a result from the true hit of the very ray, in texels.
     #[must_use]
     pub fn distance_texels(&self, uv: DVec2) -> f64 {

@@ -65,6 +65,7 @@ pub mod profile;
 mod relief;
 mod rules;
 pub mod schema;
+mod seen;
 mod sequence;
 mod settings;
 mod sheet;
@@ -90,6 +91,7 @@ pub use plan::{
     Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Permutation, Plan, Predicted, State, plan,
 };
 pub use predict::{Error as PredictedError, Measured, measure};
+pub use seen::{SeenRay, seen_rays};
 pub use settings::Setting;
 pub use technique::{Settings, Technique};
 pub use textures::{Level, Texels, Texture, TextureShape};

@@ -13,6 +13,7 @@
 //! # Ok::<(), serde_json::Error>(())
 //! ```
 
+pub mod calibrate;
 pub mod chart;
 mod error;
 pub mod flip;
@@ -21,5 +22,6 @@ pub mod record;
 pub mod report;
 #[cfg(test)]
 mod sample;
+pub mod sweep;
 
 pub use error::Error;

@@ -11,6 +11,7 @@ pub(crate) mod doctor;
 pub(crate) mod emit;
 pub(crate) mod plan;
 pub(crate) mod render;
+pub(crate) mod study;
 
 use std::path::PathBuf;
 
@@ -65,6 +66,9 @@ pub(crate) enum Command {
     /// Execute the emitted code and compare its numbers with float64 truth
     #[command(after_help = conform::EXAMPLE)]
     Conform(Box<conform::Conform>),
+    /// Measure what accuracy costs in time, technique by technique
+    #[command(after_help = study::EXAMPLE)]
+    Study(Box<study::Study>),
     /// Draw a scene into a PNG
     #[command(after_help = render::EXAMPLE)]
     Render(render::Render),

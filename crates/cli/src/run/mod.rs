@@ -12,3 +12,4 @@ pub(crate) mod emit;
 pub(crate) mod hunt;
 pub(crate) mod plan;
 pub(crate) mod render;
+pub(crate) mod study;

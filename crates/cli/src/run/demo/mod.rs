@@ -3,7 +3,6 @@
 //! Pictures and conformance need an adapter. Where no driver brings one, `embedded` takes over, and the page says which routes
 //! are left out. A failed check or case makes the exit code 1.
 
-mod bundle;
 mod page;
 
 use std::collections::BTreeSet;
@@ -18,6 +17,7 @@ use bossage_translate::{EmitOptions, Target, lint};
 
 use crate::Verdict;
 use crate::args::{Global, demo::Demo};
+use crate::bundle::BRICK_WALL;
 use crate::console::{self, Console};
 use crate::error::{Error, Result};
 use crate::inputs::{self, Inputs, Planned};
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &Demo, global: &Global, console: Console) -> Result<Verd
     let folder = &args.output;
     let mut clock = Clock::new(console);
     let (library, _) = inputs::library(global)?;
-    let path = bundle::unpack(&folder.join("scene"))?;
+    let path = BRICK_WALL.unpack(&folder.join("scene"))?;
     let mut inputs = inputs::gather(std::slice::from_ref(&path), None, global)?;
     for planned in &mut inputs.scenes {
         plan::add_costs(&mut planned.plan, &library)?;
