@@ -285,7 +285,9 @@ fn quick_study(table: &mut Table) {
     let out = tempfile::tempdir().expect("a temporary folder");
     let start = Instant::now();
     let mut command = Command::new(env!("CARGO_BIN_EXE_bossage"));
-    command.args(["study", "--quick", "--quiet", "-o"]).arg(out.path());
+    command
+        .args(["study", "--quick", "--quiet", "-o"])
+        .arg(out.path());
     let output = command.output().expect("the binary starts");
     assert!(
         output.status.success(),

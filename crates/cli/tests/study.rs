@@ -42,7 +42,11 @@ fn a_study_has_its_numbers_and_says_why_times_are_missing() {
         run.stdout
     );
     let study = study(&out);
-    assert!(fs::read_to_string(out.join("index.html")).unwrap().contains("parallax_offset"));
+    assert!(
+        fs::read_to_string(out.join("index.html"))
+            .unwrap()
+            .contains("parallax_offset")
+    );
     assert_eq!(study["schema"], 1);
     assert!(study["environment"].is_object());
     let points = study["points"].as_array().unwrap();

@@ -11,11 +11,11 @@ use bossage_conformance::environment::Environment;
 use bossage_runner::{Machine, TimingOptions};
 use bossage_shaders::Library;
 use bossage_study::calibrate;
-use bossage_study::{pareto, record, report};
 use bossage_study::sweep::journal::Journal;
 use bossage_study::sweep::ladder::{self, Chosen};
 use bossage_study::sweep::subject::Subject;
 use bossage_study::sweep::{Cell, Options, Sweep, Watch};
+use bossage_study::{pareto, record, report};
 
 use crate::Verdict;
 use crate::args::Global;

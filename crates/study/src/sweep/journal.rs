@@ -154,10 +154,7 @@ impl Journal {
             text.append(&mut line);
             text.push(b'\n');
         }
-        let written = self
-            .file
-            .write_all(&text)
-            .and_then(|()| self.file.sync_data());
+        let written = self.file.write_all(&text).and_then(|()| self.file.sync_data());
         written.map_err(|source| self.wrong(source))
     }
 
