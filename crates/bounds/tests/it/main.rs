@@ -8,6 +8,7 @@ mod corpus;
 mod coverage;
 mod flow;
 mod further;
+mod gallery;
 mod generated;
 mod intervals;
 mod kinds;

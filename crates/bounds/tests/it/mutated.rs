@@ -127,13 +127,13 @@ fn valid(text: &str) -> Option<(Module, ModuleInfo)> {
     Some((module, info))
 }
 
-fn run<D: Domain>(program: &Program, inputs: &Inputs, style: Style) -> Result<(), Error> {
+pub(crate) fn run<D: Domain>(program: &Program, inputs: &Inputs, style: Style) -> Result<(), Error> {
     let mut seed = Seed::new(7);
     let point = inputs.sample(&mut seed, style);
     let quad = inputs.quad(&point, &mut seed);
     let (mut bindings, stage) = inputs.at::<D>(&quad.each_ref())?;
     let limits = Limits {
-        operations: 1 << 14,
+        operations: 1 << 15,
         memory: 1 << 28,
         ..Limits::default()
     };
