@@ -58,6 +58,9 @@ pub enum Error {
     /// A study could not be made.
     #[error(transparent)]
     Study(#[from] bossage_study::Error),
+    /// A chart of prices could not be measured.
+    #[error(transparent)]
+    Price(#[from] bossage_study::prices::Error),
     /// A study could not be drawn.
     #[error(transparent)]
     Report(#[from] bossage_study::report::Error),
@@ -97,6 +100,7 @@ impl Error {
             | Self::Run(_)
             | Self::Conform(_)
             | Self::Study(_)
+            | Self::Price(_)
             | Self::Report(_)
             | Self::Write { .. }
             | Self::Collision { .. }

@@ -192,12 +192,14 @@ mod tests {
 
     #[test]
     fn a_profile_has_what_was_timed() {
-        let mut study = Study::default();
-        study.points = vec![
-            point("exact", 4.0, Some(0.005)),
-            point("exact", 8.0, Some(0.007)),
-            point("relief", 21.0, None),
-        ];
+        let study = Study {
+            points: vec![
+                point("exact", 4.0, Some(0.005)),
+                point("exact", 8.0, Some(0.007)),
+                point("relief", 21.0, None),
+            ],
+            ..Study::default()
+        };
         let found = profile(&study, "lavapipe", "llvmpipe", "Mesa").unwrap();
         assert_eq!(found.technique.keys().collect::<Vec<_>>(), ["exact"]);
         let exact = found.technique["exact"];

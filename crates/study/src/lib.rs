@@ -18,6 +18,7 @@ pub mod chart;
 mod error;
 pub mod flip;
 pub mod pareto;
+pub mod prices;
 pub mod record;
 pub mod report;
 #[cfg(test)]

@@ -12,6 +12,7 @@ Examples:
   bossage study --quick -o study
   bossage study --technique exact --technique parallax_occlusion:layers=64 --map bricks --view-deg 75 -o study
   bossage study --shader my_relief.wgsl --map examples/textures/bricks_height.png -o study
+  bossage study --price codec --price normaliser -o study
   bossage study --calibrate my_gpu.toml --adapter NVIDIA -o study";
 
 /// `bossage study`.
@@ -26,10 +27,27 @@ pub(crate) struct Study {
     /// A relief shader of your own (.wgsl, .wesl) with the bindings of the library's `relief_hits`
     #[arg(long, value_name = "FILE")]
     pub(crate) shader: Vec<PathBuf>,
+    /// A chart of other prices, as codec, and no rays [default: all charts, where no technique, map, scene, shader or angle is chosen]
+    #[arg(long, value_name = "CHART", conflicts_with_all = ["technique", "shader", "calibrate"])]
+    pub(crate) price: Vec<String>,
     #[command(flatten, next_help_heading = "What is seen")]
     pub(crate) seen: Seen,
     #[command(flatten, next_help_heading = "How it is measured")]
     pub(crate) measured: Measured,
+}
+
+impl Study {
+    /// Whether nothing is chosen, so that everything is meant.
+    pub(crate) fn is_whole(&self) -> bool {
+        let Seen {
+            map, scene, view_deg, ..
+        } = &self.seen;
+        self.technique.is_empty()
+            && self.shader.is_empty()
+            && map.is_empty()
+            && scene.is_empty()
+            && view_deg.is_empty()
+    }
 }
 
 /// Maps and rays.

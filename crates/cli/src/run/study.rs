@@ -1,6 +1,7 @@
 //! `bossage study`: what accuracy costs, measured, and kept as it is finished.
 
 mod cells;
+mod prices;
 mod table;
 
 use std::fs;
@@ -33,6 +34,7 @@ const COUNTED: usize = 4096;
 
 pub(crate) fn run(args: &Study, global: &Global, console: Console) -> Result<Verdict> {
     let (library, _) = inputs::library(global)?;
+    let charts = prices::charts(args)?;
     let chosen = chosen(args)?;
     let cells = cells::of(args)?;
     let measured = &args.measured;
@@ -46,16 +48,22 @@ pub(crate) fn run(args: &Study, global: &Global, console: Console) -> Result<Ver
             bossage_runner::HOW_TO_GET_AN_ADAPTER
         )));
     }
-    let subjects = subjects(args, &library, &chosen, machine.as_ref())?;
-    console.note(format_args!(
-        "{} techniques, {} views on {}",
-        subjects.len(),
-        cells.len(),
-        machine.info()
-    ));
+    let points = if args.price.is_empty() {
+        let subjects = subjects(args, &library, &chosen, machine.as_ref())?;
+        console.note(format_args!(
+            "{} techniques, {} views on {}",
+            subjects.len(),
+            cells.len(),
+            machine.info()
+        ));
+        measure(args, machine.as_ref(), &subjects, &cells, console)?
+    } else {
+        Vec::new()
+    };
     let mut study = record::Study {
         environment: environment(machine.as_ref()),
-        points: measure(args, machine.as_ref(), &subjects, &cells, console)?,
+        points,
+        prices: prices::measure(&charts, args, machine.as_ref(), &library, console)?,
         ..record::Study::default()
     };
     pareto::mark(&mut study.points);

@@ -13,8 +13,11 @@ const READ: &str = "
 }
 ";
 
-/// Two texels of each format and what they are read as: steps of the format, then the size of one.
-fn formats() -> Vec<(TexelFormat, Vec<u8>, [[i32; 4]; 2], f64)> {
+/// Two texels of a format and what they are read as: steps of the format, then the size of one.
+type Known = (TexelFormat, Vec<u8>, [[i32; 4]; 2], f64);
+
+/// Each format.
+fn formats() -> Vec<Known> {
     let words = |words: &[u16]| bytemuck::cast_slice(words).to_vec();
     let signed = |words: &[i16]| bytemuck::cast_slice(words).to_vec();
     vec![

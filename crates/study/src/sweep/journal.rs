@@ -191,7 +191,7 @@ mod tests {
 
     use super::{Journal, NAME};
     use crate::error::Error;
-    use crate::record::{Point, Price};
+    use crate::record::Point;
 
     fn point(name: &str) -> Point {
         Point {
