@@ -333,6 +333,65 @@ fn a_hunt_finds_a_planted_defect_and_keeps_what_the_library_has() {
     let report = parsed(&conform(&folder, "planted.wgsl", &hunt).exits(0).stdout);
     let findings = report["findings"].as_array().unwrap();
     assert!(findings.iter().any(|one| one["goal"] == "error"), "{report}");
+    // What is found stands beside the shader, and later runs replay it.
+    let beside = folder.path().join("planted.corpus.toml");
+    let found = fs::read_to_string(&beside).unwrap();
+    assert!(
+        found.contains("shader = \"planted\"") && found.contains("0x"),
+        "{found}"
+    );
+    let replayed = |more: &[&str]| {
+        let call = [&["--inputs", "2", "--route", "embedded", "--json", "-"], more].concat();
+        parsed(&conform(&folder, "planted.wgsl", &call).exits(0).stdout)
+    };
+    let count = |report: &serde_json::Value| {
+        let is_replayed = |case: &&serde_json::Value| case["id"].as_str().unwrap().contains("/corpus:");
+        report["cases"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(is_replayed)
+            .count()
+    };
+    assert_eq!(count(&replayed(&[])), 1);
+    // A number of evaluations is the same hunt everywhere, in whatever time.
+    let counted = |name: &str| {
+        let kept = folder.path().join(name);
+        fs::create_dir(&kept).unwrap();
+        let hunt = [
+            "--hunt",
+            "--evaluations",
+            "1500",
+            "--threshold",
+            "1000",
+            "--corpus",
+            text(&kept),
+        ];
+        conform(&folder, "planted.wgsl", &hunt).exits(0);
+        assert_eq!(count(&replayed(&["--corpus", text(&kept)])), 1);
+        fs::read_to_string(kept.join("planted.corpus.toml")).unwrap()
+    };
+    assert_eq!(counted("first"), counted("second"));
+    assert_eq!(
+        count(&replayed(&[
+            "--corpus",
+            text(folder.path().join("first").parent().unwrap())
+        ])),
+        1
+    );
+    // What is there and wrong is never overwritten, nor passed over.
+    fs::write(&beside, "schema = 1\nshader = \"planted\"\n[[found]]\n").unwrap();
+    for more in [hunt.as_slice(), &["--inputs", "2"]] {
+        conform(&folder, "planted.wgsl", more)
+            .exits(2)
+            .says(&["planted.corpus.toml", "entry"]);
+    }
+    bossage(&["conform", "--corpus", "somewhere"])
+        .exits(2)
+        .says(&["--corpus", "--shader"]);
+    bossage(&["conform", "--hunt", "--evaluations", "0"])
+        .exits(2)
+        .says(&["--evaluations"]);
     let corpus = folder.path().join("corpus");
     fs::create_dir(&corpus).unwrap();
     let library = [

@@ -62,14 +62,19 @@ pub(crate) struct Hunt {
     /// Search for inputs at which the library's functions, or a shader of your own, err most or are known least
     #[arg(long, conflicts_with_all = ["scene", "shard", "full", "list", "junit", "html", "attribute"])]
     pub(crate) hunt: bool,
-    /// Seconds that the search takes, for all functions together
-    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, requires = "hunt", value_parser = seconds)]
-    pub(crate) time: f64,
+    /// Seconds that the search takes, for all functions together [default: 60, or no limit with --evaluations]
+    #[arg(long, value_name = "SECONDS", requires = "hunt", value_parser = seconds)]
+    pub(crate) time: Option<f64>,
+    /// Inputs that are evaluated at most for each function or entry point, those that make a find plain not counted; without --time the
+    /// same seed then finds the same on every machine
+    #[arg(long, value_name = "N", requires = "hunt", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) evaluations: Option<u64>,
     /// Only errors and widths of so many ULPs count as found
     #[arg(long, value_name = "ULPS", default_value_t = 64.0, requires = "hunt", value_parser = ulps)]
     pub(crate) threshold: f64,
-    /// Where hard inputs of the library are kept, a file a function [default: crates/conformance/corpus, where that is]
-    #[arg(long, value_name = "DIR", requires = "hunt")]
+    /// Where hard inputs are kept: of the library a file a function [default: crates/conformance/corpus, where that is], of a shader of
+    /// your own NAME.corpus.toml, which later runs of it replay [default: beside it]
+    #[arg(long, value_name = "DIR")]
     pub(crate) corpus: Option<PathBuf>,
 }
 

@@ -30,6 +30,12 @@ pub(crate) fn run(args: &Conform, global: &Global, console: Console) -> Result<V
                 .to_owned(),
         ));
     }
+    if args.hunt.corpus.is_some() && args.user.shader.is_none() && !args.hunt.hunt {
+        return Err(Error::Call(
+            "--corpus goes with --shader or --hunt; the library's own corpus is part of the program"
+                .to_owned(),
+        ));
+    }
     if args.hunt.hunt {
         return hunt::run(args, &selection, global, console);
     }

@@ -5,11 +5,11 @@
 
 use std::ffi::OsString;
 use std::io::{BufReader, stdin, stdout};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use bossage_conformance::heat::Wanted;
-use bossage_conformance::user::{Children, Options, run as run_shader, serve as serve_request};
+use bossage_conformance::user::{Children, Corpus, Options, run as run_shader, serve as serve_request};
 use bossage_conformance::{Report, Selection};
 use bossage_translate::Shader;
 
@@ -18,7 +18,7 @@ use crate::Verdict;
 use crate::args::Global;
 use crate::args::conform::{Conform, UserShader};
 use crate::console::Console;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, read as read_file};
 use crate::inputs::{self, Inputs};
 use crate::numeric;
 
@@ -69,7 +69,8 @@ pub(super) fn options(file: &Path, args: &Conform) -> Result<Options> {
             None if wants_a_page => Wanted::Widest,
             None => Wanted::Nothing,
         },
-        arguments: arguments(file, &args.user),
+        corpus: if args.hunt.hunt { None } else { corpus(file, args)? },
+        arguments: arguments(file, args),
     })
 }
 
@@ -89,8 +90,36 @@ pub(super) fn read(file: &Path, user: &UserShader, global: &Global) -> Result<Sh
         .parse_labelled()
 }
 
+/// Where the shader's hard inputs are kept: beside it, or in the folder that the call names.
+pub(super) fn corpus_path(file: &Path, args: &Conform) -> PathBuf {
+    let beside = file.with_extension("corpus.toml");
+    match (&args.hunt.corpus, beside.file_name()) {
+        (Some(folder), Some(name)) => folder.join(name),
+        _ => beside,
+    }
+}
+
+/// The shader's hard inputs, where there are some.
+pub(super) fn corpus(file: &Path, args: &Conform) -> Result<Option<Corpus>> {
+    let path = corpus_path(file, args);
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let name = path.display().to_string();
+    let text = String::from_utf8(read_file(&path)?)
+        .map_err(|_| Error::Call(format!("{name} is no text; a corpus is TOML in UTF-8")))?;
+    Ok(Some(Corpus::parse(&name, &text)?))
+}
+
+/// One without any.
+pub(super) fn no_corpus(file: &Path) -> Corpus {
+    let name = file.file_stem().unwrap_or_default().to_string_lossy();
+    Corpus::new("", &name)
+}
+
 /// What runs the same again.
-fn arguments(file: &Path, user: &UserShader) -> Vec<String> {
+fn arguments(file: &Path, args: &Conform) -> Vec<String> {
+    let user = &args.user;
     let mut list = vec!["--shader".to_owned(), file.display().to_string()];
     let mut add = |flag: &str, value: Option<String>| {
         list.extend(value.into_iter().flat_map(|value| [flag.to_owned(), value]));
@@ -107,6 +136,10 @@ fn arguments(file: &Path, user: &UserShader) -> Vec<String> {
     add("--seed", Some(user.seed.to_string()));
     add("--operations", Some(user.operations.to_string()));
     add("--workgroups", user.workgroups.clone());
+    add(
+        "--corpus",
+        args.hunt.corpus.as_ref().map(|path| path.display().to_string()),
+    );
     list
 }
 

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use bossage_conformance::Selection;
 use bossage_conformance::hunt::corpus::Corpus;
-use bossage_conformance::hunt::{Finding, Hunted, Options, hunt_library, hunt_shader};
+use bossage_conformance::hunt::{Finding, Hunted, Options, SECONDS, hunt_library, hunt_shader};
 use serde::Serialize;
 
 use super::conform::is_standard_output;
@@ -32,8 +32,11 @@ pub(crate) fn run(
     let options = Options {
         filter: args.filter.clone(),
         seed: args.user.seed,
-        time: Duration::from_secs_f64(args.hunt.time),
-        evaluations: None,
+        time: time(args),
+        evaluations: args
+            .hunt
+            .evaluations
+            .map(|n| usize::try_from(n).unwrap_or(usize::MAX)),
         threshold: args.hunt.threshold,
     };
     let mut told = |name: &str| console.note(format_args!("hunting {name}"));
@@ -50,7 +53,14 @@ pub(crate) fn run(
         }
     };
     let mut outputs = Outputs::default();
-    if let Some(folder) = corpus_folder(args.hunt.corpus.as_deref()) {
+    if let Some(file) = args.user.shader.as_deref().filter(|_| !hunted.kept.is_empty()) {
+        let path = conform_shader::corpus_path(file, args);
+        let mut corpus =
+            conform_shader::corpus(file, args)?.unwrap_or_else(|| conform_shader::no_corpus(file));
+        corpus.merge(hunted.kept.clone());
+        console.note(format_args!("kept in {}", path.display()));
+        outputs.add(path, "--corpus", corpus.text().into_bytes())?;
+    } else if let Some(folder) = corpus_folder(args.hunt.corpus.as_deref()) {
         add_corpora(&hunted, &folder, &mut outputs)?;
     }
     let json = Document::of(&hunted, &options);
@@ -66,6 +76,12 @@ pub(crate) fn run(
     }
     let refused = hunted.findings.iter().any(|one| one.refused.is_some());
     Ok(if refused { Verdict::Failed } else { Verdict::Fine })
+}
+
+/// The time that the call names; without one only a number of evaluations ends a hunt earlier than its usual time.
+fn time(args: &Conform) -> Option<Duration> {
+    let usual = args.hunt.evaluations.is_none().then_some(SECONDS);
+    args.hunt.time.or(usual).map(Duration::from_secs_f64)
 }
 
 /// The folder that the call names, else the repository's own where the call is made from its root.
@@ -95,7 +111,10 @@ fn add_corpora(hunted: &Hunted, folder: &Path, outputs: &mut Outputs) -> Result<
 struct Document<'a> {
     schema: u32,
     seed: u64,
-    seconds: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seconds: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    evaluations: Option<usize>,
     threshold_ulps: f64,
     findings: &'a [Finding],
     evaluated: Vec<Evaluated<'a>>,
@@ -119,7 +138,8 @@ impl<'a> Document<'a> {
         Self {
             schema: 1,
             seed: options.seed,
-            seconds: options.time.as_secs_f64(),
+            seconds: options.time.map(|time| time.as_secs_f64()),
+            evaluations: options.evaluations,
             threshold_ulps: options.threshold,
             findings: &hunted.findings,
             evaluated: hunted

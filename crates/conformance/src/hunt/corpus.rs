@@ -209,8 +209,7 @@ fn find(function: &str) -> Option<&'static Probe> {
 }
 
 /// A float as C writes it in hexadecimal: exact, and its bits can be read off.
-#[must_use]
-pub fn hex(x: f32) -> String {
+pub(crate) fn hex(x: f32) -> String {
     let bits = x.to_bits();
     let sign = if bits >> 31 == 1 { "-" } else { "" };
     let (exponent, mantissa) = ((bits >> 23) & 0xff, bits & 0x007f_ffff);
@@ -226,7 +225,7 @@ pub fn hex(x: f32) -> String {
 }
 
 /// Reads what [`hex`] writes.
-fn unhex(text: &str) -> Result<f32, String> {
+pub(crate) fn unhex(text: &str) -> Result<f32, String> {
     let wrong = || format!("`{text}` is no hexadecimal float; they look like -0x1.8p-3");
     let (negative, rest) = match text.strip_prefix('-') {
         Some(rest) => (true, rest),

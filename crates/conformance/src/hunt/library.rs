@@ -50,7 +50,7 @@ pub fn hunt(
         .first()
         .ok_or(Error::Adapter(bossage_runner::Error::NoAdapter))?;
     let mut hunted = Hunted::default();
-    let share = options.time.div_f64(probes.len() as f64);
+    let share = options.time.map(|time| time.div_f64(probes.len() as f64));
     for probe in probes {
         told(probe.function());
         match of_probe(probe, bench, options, share) {
@@ -66,6 +66,7 @@ impl Hunted {
         self.findings.extend(other.findings);
         self.evaluated.extend(other.evaluated);
         self.corpora.extend(other.corpora);
+        self.kept.extend(other.kept);
         self.skipped.extend(other.skipped);
     }
 }
@@ -74,7 +75,7 @@ fn of_probe(
     probe: &'static Probe,
     bench: &Bench<'_>,
     options: &Options,
-    time: Duration,
+    time: Option<Duration>,
 ) -> Result<Hunted, String> {
     let module = bench.module(&Module::Probe(probe.id))?;
     let program = module.program(probe.entry)?;
@@ -107,7 +108,7 @@ fn of_probe(
         } else {
             vec![corpus]
         },
-        skipped: Vec::new(),
+        ..Hunted::default()
     })
 }
 

@@ -8,7 +8,7 @@ use std::time::Instant;
 use bossage_bounds::ranges::Point;
 
 use super::search::Found;
-use super::{Goal, Prey, Score, Subject, slot};
+use super::{Goal, Prey, Score, Subject, is_over, slot};
 
 /// The share of a score that has to stay.
 const KEPT: f64 = 0.5;
@@ -22,7 +22,7 @@ pub(super) fn plain(
     subject: &dyn Subject,
     found: &mut Found,
     threshold: f64,
-    until: Instant,
+    until: Option<Instant>,
 ) -> Result<Vec<Prey>, String> {
     let mut prey = Vec::new();
     if let Some((output, got, point)) = found.refused.clone() {
@@ -65,7 +65,7 @@ fn simplified(
     start: Score,
     mut point: Point,
     threshold: f64,
-    until: Instant,
+    until: Option<Instant>,
 ) -> Result<(Score, Point), String> {
     let least = (KEPT * start.ulps).max(threshold);
     let mut score = start;
@@ -75,7 +75,7 @@ fn simplified(
         let before = point.clone();
         for scalar in free.iter().copied().take(MOST) {
             let candidates = candidates(subject, &point, scalar);
-            if candidates.is_empty() || Instant::now() >= until {
+            if candidates.is_empty() || is_over(until) {
                 continue;
             }
             let measured = subject.measure(&candidates)?;

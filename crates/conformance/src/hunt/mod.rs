@@ -62,8 +62,8 @@ pub struct Options {
     pub filter: Option<String>,
     /// The seed.
     pub seed: u64,
-    /// Time for all subjects together.
-    pub time: Duration,
+    /// Time for all subjects together; no limit when `None`.
+    pub time: Option<Duration>,
     /// The most inputs that are evaluated for one subject; no limit when `None`.
     pub evaluations: Option<usize>,
     /// Only what reaches so many ULPs is a finding.
@@ -104,6 +104,8 @@ pub struct Hunted {
     pub evaluated: Vec<(String, usize)>,
     /// Probes of the library with what belongs into their corpora.
     pub corpora: Vec<corpus::Corpus>,
+    /// What belongs into the corpus of a shader.
+    pub kept: Vec<crate::user::Found>,
     /// Subjects that could not be hunted, with the reason.
     pub skipped: Vec<(String, String)>,
 }
@@ -171,7 +173,8 @@ pub(crate) trait Subject {
 /// An end to a subject's hunt.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Budget {
-    pub(crate) until: Instant,
+    /// No limit when `None`.
+    pub(crate) until: Option<Instant>,
     pub(crate) evaluations: usize,
 }
 
@@ -187,16 +190,16 @@ pub(crate) struct Prey {
 pub(crate) fn hunt(
     subject: &dyn Subject,
     options: &Options,
-    time: Duration,
+    time: Option<Duration>,
 ) -> Result<(Vec<Prey>, usize), String> {
+    let after = |share: f64| time.map(|time| Instant::now() + time.mul_f64(share));
     let budget = Budget {
-        until: Instant::now() + time.mul_f64(0.8),
+        until: after(0.8),
         evaluations: options.evaluations.unwrap_or(usize::MAX),
     };
     let mut seed = Seed::new(options.seed);
     let mut found = search::search(subject, &budget, &mut seed)?;
-    let until = Instant::now() + time.mul_f64(0.2);
-    let prey = minimise::plain(subject, &mut found, options.threshold, until)?;
+    let prey = minimise::plain(subject, &mut found, options.threshold, after(0.2))?;
     Ok((prey, found.evaluated))
 }
 
@@ -220,6 +223,11 @@ pub fn probes(filter: Option<&str>) -> Vec<&'static bossage_shaders::Probe> {
         .iter()
         .filter(|probe| filter.is_none_or(|filter| crate::suite::probe::id(probe, "corpus").matches(filter)))
         .collect()
+}
+
+/// Whether a time has come.
+pub(crate) fn is_over(until: Option<Instant>) -> bool {
+    until.is_some_and(|until| Instant::now() >= until)
 }
 
 /// Told before each subject.

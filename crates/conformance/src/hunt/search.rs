@@ -6,7 +6,7 @@
 
 use bossage_bounds::ranges::{Point, Seed};
 
-use super::{Budget, Goal, Measured, Subject, slot};
+use super::{Budget, Goal, Measured, Subject, is_over, slot};
 
 /// Inputs that are evaluated at a time.
 const BATCH: usize = 128;
@@ -77,7 +77,7 @@ pub(super) fn search(subject: &dyn Subject, budget: &Budget, seed: &mut Seed) ->
     let mut round = 0;
     while found.refused.is_none()
         && found.evaluated < budget.evaluations
-        && (round == 0 || std::time::Instant::now() < budget.until)
+        && (round == 0 || !is_over(budget.until))
     {
         let size = BATCH.min(budget.evaluations - found.evaluated);
         let points: Vec<Point> = (0..size)

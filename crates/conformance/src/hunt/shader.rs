@@ -1,5 +1,5 @@
-//! A user's compute shader: the error is that of a perfect machine against the formula in f64, the interval that of its own IR. All outputs
-//! are hunted as one.
+//! A user's shader: the error is that of a perfect machine against the formula in f64, the interval that of its own IR. All outputs
+//! are hunted as one. Of a stage that is drawn all four invocations of an input get the same, so derivatives are zero.
 
 use std::time::Duration;
 
@@ -7,12 +7,12 @@ use bossage_bounds::ranges::{Declared, Point, Seed, Style};
 use bossage_translate::Shader;
 use rayon::prelude::*;
 
-use super::{Goal, Hunted, Measured, Options, Score, Subject, Told, finding, hunt as hunt_subject};
+use super::{Goal, Hunted, Measured, Options, Prey, Score, Subject, Told, finding, hunt as hunt_subject};
 use crate::case::with_causes;
 use crate::compare::NamedInput;
 use crate::error::Error;
 use crate::ulp::error_ulps;
-use crate::user::{self, Plan, Ready};
+use crate::user::{self, Found, Plan, Ready};
 
 /// Hunts the entry points of a shader.
 ///
@@ -26,7 +26,7 @@ pub fn hunt(
     told: Told<'_>,
 ) -> Result<Hunted, Error> {
     let plans = user::plans(shader, declared, user_options)?;
-    let time = options.time.div_f64(plans.len().max(1) as f64);
+    let time = options.time.map(|time| time.div_f64(plans.len().max(1) as f64));
     let mut hunted = Hunted::default();
     for plan in &plans {
         told(&plan.entry);
@@ -44,7 +44,7 @@ pub fn hunt(
     Ok(hunted)
 }
 
-fn of_entry(plan: &Plan, ready: &Ready, options: &Options, time: Duration) -> Result<Hunted, String> {
+fn of_entry(plan: &Plan, ready: &Ready, options: &Options, time: Option<Duration>) -> Result<Hunted, String> {
     let subject = ShaderSubject { plan, ready };
     let (prey, evaluated) = hunt_subject(&subject, options, time)?;
     Ok(Hunted {
@@ -52,9 +52,24 @@ fn of_entry(plan: &Plan, ready: &Ready, options: &Options, time: Duration) -> Re
             .iter()
             .map(|one| finding(&subject, one, options.seed))
             .collect(),
+        kept: prey.iter().map(|one| kept(&subject, one, options.seed)).collect(),
         evaluated: vec![(subject.name(), evaluated)],
         ..Hunted::default()
     })
+}
+
+/// As the shader's corpus has it.
+fn kept(subject: &ShaderSubject<'_>, prey: &Prey, seed: u64) -> Found {
+    let [inputs, texels] = Found::tables(&subject.ready.inputs, &prey.point);
+    Found {
+        entry: subject.plan.entry.clone(),
+        goal: prey.goal,
+        output: subject.output(prey.score.output),
+        ulps: prey.score.ulps,
+        seed,
+        inputs,
+        texels,
+    }
 }
 
 struct ShaderSubject<'a> {

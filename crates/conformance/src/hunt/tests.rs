@@ -1,7 +1,5 @@
 //! Hunts of shaders with a planted defect find it from a fixed seed within their evaluations; without it they find nothing.
 
-use std::time::Duration;
-
 use bossage_bounds::ranges::Declared;
 use bossage_shaders::Library;
 use bossage_translate::{Shader, Source};
@@ -26,7 +24,7 @@ fn options(evaluations: usize, threshold: f64) -> Options {
     Options {
         filter: None,
         seed: 5,
-        time: Duration::from_secs(600),
+        time: None,
         evaluations: Some(evaluations),
         threshold,
     }
@@ -43,6 +41,7 @@ fn hunt(text: &str, threshold: f64) -> Hunted {
         workgroups: None,
         operations: user::OPERATIONS,
         attribute: Wanted::Nothing,
+        corpus: None,
         arguments: Vec::new(),
     };
     let options = options(6000, threshold);

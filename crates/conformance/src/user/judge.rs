@@ -1,5 +1,7 @@
 //! One route's outputs against what the shader's IR allows.
 
+use std::ops::Range;
+
 use bossage_bounds::{Accept, F32, F64, Scalar, Truth};
 
 use super::expect::{Expected, Unknown};
@@ -61,11 +63,13 @@ pub(super) fn refusal(got: &Scalar<F32>, bound: &Bound, starts_unwritten: bool) 
     })
 }
 
-/// All outputs of a cell.
-pub(super) fn outcome(ready: &Ready, cell: &Cell) -> Outcome {
+/// All outputs of a cell at some of its inputs.
+pub(super) fn outcome(ready: &Ready, cell: &Cell, inputs: Range<usize>) -> Outcome {
     let mut comparison = Comparison::default();
     let mut unknown = None;
-    for (at, (ran, expected)) in cell.got.iter().zip(&cell.expected).enumerate() {
+    let all = cell.got.iter().zip(&cell.expected).enumerate();
+    let wanted = inputs.end;
+    for (at, (ran, expected)) in all.take(inputs.end).skip(inputs.start) {
         match expected.as_ref() {
             Ok(expected) => compare(ready, at, ran, expected, &mut comparison),
             Err(reason) => {
@@ -75,8 +79,10 @@ pub(super) fn outcome(ready: &Ready, cell: &Cell) -> Outcome {
             }
         }
     }
-    let inputs = cell.got.len();
-    match &cell.stopped {
+    // What stopped it after these inputs is none of their business.
+    let stopped = cell.stopped.as_ref().filter(|_| cell.got.len() < wanted);
+    let inputs = cell.got.len().min(wanted).saturating_sub(inputs.start);
+    match stopped {
         Some(Stop::Failed(reason)) => {
             return Outcome {
                 inputs,

@@ -5,7 +5,9 @@
 //! Then the results of the routes are compared with each other. So a case asks whether a driver and our writers compute *what the shader
 //! says*; whether the shader says what its author meant it cannot know.
 //!
-//! Per entry point and cell (route, adapter) there are two results: `SHADER/ranges:entry=E;n=N;seed=S`, the outputs against the
+//! Inputs that a hunt found are kept beside the shader ([`Corpus`]) and run after the chosen ones: `SHADER/corpus:…` is what came of them.
+//!
+//! Per entry point and cell (route, adapter) there are two more results: `SHADER/ranges:entry=E;n=N;seed=S`, the outputs against the
 //! intervals, and `SHADER/agreement:…`, the outputs against those of the first cell that ran (which has no such result). Results may differ wherever the interval
 //! admits both; they disagree where it does not. Where the rules say nothing (overflow, division by zero) results that differ are a
 //! warning: allowed, but not portable.
@@ -20,6 +22,7 @@
 mod agree;
 mod bindable;
 mod child;
+mod corpus;
 mod draw;
 pub(crate) mod expect;
 pub(crate) mod judge;
@@ -39,6 +42,7 @@ use bossage_translate::Shader;
 use serde::{Deserialize, Serialize};
 
 pub use child::Children;
+pub use corpus::{Corpus, Found};
 pub use plan::Plan;
 pub(crate) use plan::plans;
 pub(crate) use ready::Ready;
@@ -67,7 +71,7 @@ pub const OPERATIONS: u64 = 1 << 20;
 pub const BASIS: [&str; 1] = ["accuracy rules over the shader's IR"];
 
 /// What of a shader is run, and with what.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Only this entry point; all when `None`.
     pub entry: Option<String>,
@@ -83,6 +87,8 @@ pub struct Options {
     pub operations: u64,
     /// Which output's bound is attributed to source lines.
     pub attribute: Wanted,
+    /// Inputs that hunts found, which are run after the chosen ones.
+    pub corpus: Option<Corpus>,
     /// What the command line needs besides a case's name to run it again.
     pub arguments: Vec<String>,
 }
@@ -167,10 +173,7 @@ pub fn run(
         .flat_map(|(info, routes)| routes.iter().map(|route| (*route, info.name.clone())))
         .collect();
     let wanted = |id: &CaseId| options.filter.as_deref().is_none_or(|filter| id.matches(filter));
-    let ids: Vec<CaseId> = plans
-        .iter()
-        .flat_map(|plan| [plan.id("ranges"), plan.id("agreement")])
-        .collect();
+    let ids: Vec<CaseId> = plans.iter().flat_map(Plan::ids).collect();
     if !ids.iter().any(wanted) {
         return Err(Error::NoSuchCase {
             filter: options.filter.clone().unwrap_or_default(),
@@ -179,10 +182,7 @@ pub fn run(
     }
     progress.start(cells.len() * ids.iter().filter(|id| wanted(id)).count());
     let (mut results, mut heats) = (Vec::new(), Vec::new());
-    for plan in plans
-        .iter()
-        .filter(|plan| wanted(&plan.id("ranges")) || wanted(&plan.id("agreement")))
-    {
+    for plan in plans.iter().filter(|plan| plan.ids().iter().any(wanted)) {
         let (mut of_plan, heat) = results_of(plan, shader, &cells, options, executor)?;
         heats.extend(heat);
         of_plan.retain(|result| wanted(&result.id));
@@ -226,9 +226,20 @@ fn results_of(
         .iter()
         .map(|cell| run_cell(plan, ready, cell, executor, &mut known))
         .collect();
-    let judged = ran
-        .iter()
-        .map(|cell| result(plan, cell, options, "ranges", judge::outcome(ready, cell)));
+    let judged = ran.iter().flat_map(|cell| {
+        let chosen = result(
+            plan,
+            cell,
+            options,
+            "ranges",
+            judge::outcome(ready, cell, 0..ready.chosen()),
+        );
+        let replayed = (ready.replayed > 0).then(|| {
+            let inputs = ready.chosen()..ready.points.len();
+            result(plan, cell, options, "corpus", judge::outcome(ready, cell, inputs))
+        });
+        std::iter::once(chosen).chain(replayed)
+    });
     let agreed = agree::outcomes(ready, &ran);
     let agreed = ran
         .iter()
@@ -285,10 +296,10 @@ fn result(plan: &Plan, cell: &Cell, options: &Options, generator: &str, outcome:
         id: plan.id(generator),
         route: cell.route,
         adapter: cell.adapter.clone(),
-        basis: if generator == "ranges" {
-            BASIS.to_vec()
-        } else {
+        basis: if generator == "agreement" {
             vec!["the other routes"]
+        } else {
+            BASIS.to_vec()
         },
         arguments: options.arguments.clone(),
         inputs,

@@ -27,10 +27,23 @@ impl Plan {
     /// The name of a case of this entry point.
     #[must_use]
     pub fn id(&self, generator: &str) -> CaseId {
-        CaseId::new(&self.shader, None, generator)
-            .with("entry", &self.entry)
-            .with("n", self.inputs)
-            .with("seed", self.seed)
+        let id = CaseId::new(&self.shader, None, generator).with("entry", &self.entry);
+        if generator == "corpus" {
+            return id.with("n", self.replayed());
+        }
+        id.with("n", self.inputs).with("seed", self.seed)
+    }
+
+    /// The names of all its cases.
+    #[must_use]
+    pub fn ids(&self) -> Vec<CaseId> {
+        let corpus = (self.replayed() > 0).then(|| self.id("corpus"));
+        let others = [self.id("ranges"), self.id("agreement")];
+        others.into_iter().chain(corpus).collect()
+    }
+
+    fn replayed(&self) -> usize {
+        self.ready.as_ref().map_or(0, |ready| ready.replayed)
     }
 }
 
@@ -68,9 +81,12 @@ pub(crate) fn plans(
             known.push(inputs.clone());
         }
         if chosen.iter().any(|(name, _)| name == entry) {
-            let ready = inputs.and_then(|inputs| Ready::new(shader, entry, *stage, inputs, options));
-            if let Ok(ready) = &ready {
+            let mut ready = inputs.and_then(|inputs| Ready::new(shader, entry, *stage, inputs, options));
+            if let Ok(ready) = &mut ready {
                 ready.check_size(shader.name())?;
+                if let Some(corpus) = &options.corpus {
+                    ready.replay(corpus.points(entry, &ready.inputs)?);
+                }
             }
             plans.push(Plan {
                 shader: stem(shader.name()),
@@ -80,6 +96,10 @@ pub(crate) fn plans(
                 ready,
             });
         }
+    }
+    if let Some(corpus) = &options.corpus {
+        let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
+        corpus.check(&names)?;
     }
     if let Some(declared) = declared {
         declared

@@ -27,6 +27,8 @@ pub(crate) struct Ready {
     pub(crate) inputs: Inputs,
     /// For each input the invocations that differ: one of a compute shader, four of another stage, over the bindings of the first.
     pub(crate) points: Vec<Vec<Point>>,
+    /// How many of them, the last, come from a corpus.
+    pub(crate) replayed: usize,
     pub(crate) limits: Limits,
     form: Form,
     names: Vec<String>,
@@ -106,6 +108,7 @@ impl Ready {
                 operations: options.operations,
                 ..Limits::default()
             },
+            replayed: 0,
             program,
             form,
             names,
@@ -131,6 +134,18 @@ impl Ready {
             invocations,
             limit: MAX_INVOCATIONS,
         })
+    }
+
+    /// Adds inputs of a corpus.
+    pub(super) fn replay(&mut self, points: Vec<Point>) {
+        self.replayed += points.len();
+        let alike: Vec<Vec<Point>> = points.iter().map(|point| self.alike(point)).collect();
+        self.points.extend(alike);
+    }
+
+    /// How many inputs were chosen from their ranges.
+    pub(super) fn chosen(&self) -> usize {
+        self.points.len() - self.replayed
     }
 
     /// The invocations of an input that all get the same.

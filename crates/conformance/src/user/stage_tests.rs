@@ -41,6 +41,7 @@ fn options() -> Options {
         workgroups: None,
         operations: OPERATIONS,
         attribute: Wanted::Nothing,
+        corpus: None,
         arguments: Vec::new(),
     }
 }

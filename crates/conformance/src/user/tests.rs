@@ -47,6 +47,7 @@ fn options() -> Options {
         workgroups: None,
         operations: OPERATIONS,
         attribute: Wanted::Widest,
+        corpus: None,
         arguments: vec!["--shader".to_owned(), "folder/scale.wgsl".to_owned()],
     }
 }
@@ -382,5 +383,82 @@ fn the_line_that_dominates_a_bound_is_hot() {
         "scope=\"row\"",
     ] {
         assert!(page.contains(word), "{word}");
+    }
+}
+
+/// What is wrong at a replayed input alone is refused there alone.
+#[test]
+fn hard_inputs_are_replayed_after_the_chosen_ones() {
+    let declared = Declared::parse("scale.ranges.toml", RANGES).unwrap();
+    let at = |plan: &super::Plan| {
+        let ready = plan.ready.as_ref().unwrap();
+        let [inputs, texels] = super::Found::tables(&ready.inputs, &ready.points[2][0]);
+        super::Found {
+            entry: plan.entry.clone(),
+            goal: crate::hunt::Goal::Error,
+            output: "result[0].x".to_owned(),
+            ulps: 3.0,
+            seed: 3,
+            inputs,
+            texels,
+        }
+    };
+    let plan = &super::plan::plans(&shader(SCALE), Some(&declared), &options()).unwrap()[0];
+    let mut corpus = super::Corpus::new("scale.corpus.toml", "scale");
+    corpus.merge(vec![at(plan)]);
+    let corpus = super::Corpus::parse("scale.corpus.toml", &corpus.text()).unwrap();
+    let run_with = |corpus: super::Corpus, ranges: &str, executor: &dyn Executor| {
+        let options = Options {
+            corpus: Some(corpus),
+            ..options()
+        };
+        let declared = Declared::parse("scale.ranges.toml", ranges).unwrap();
+        run(
+            &shader(SCALE),
+            Some(&declared),
+            &options,
+            &embedded(),
+            executor,
+            &mut Silent,
+        )
+    };
+    let verdicts = |report: &Report| {
+        let of = |generator: &str| {
+            report
+                .cases
+                .iter()
+                .find(|case| case.id.generator == generator)
+                .unwrap()
+        };
+        let (ranges, corpus) = (of("ranges"), of("corpus"));
+        assert_eq!(corpus.id.to_string(), "scale/corpus:entry=scale;n=1");
+        assert_eq!((ranges.inputs, corpus.inputs), (6, 1));
+        (ranges.verdict, corpus.verdict)
+    };
+    let report = run_with(corpus.clone(), RANGES, &InProcess).unwrap();
+    assert_eq!(verdicts(&report), (Verdict::Pass, Verdict::Pass));
+    let lying = Lying {
+        job: 6,
+        buffer: 1,
+        word: 0,
+        change: |bits| bits.wrapping_add(1),
+    };
+    let report = run_with(corpus.clone(), RANGES, &lying).unwrap();
+    assert_eq!(verdicts(&report), (Verdict::Pass, Verdict::Fail));
+    // What fits no longer is said, with the way out.
+    for (from, to, word) in [
+        (
+            "size = 20 }\n\"source[]\"",
+            "size = 19 }\n\"source[]\"",
+            "source[19]",
+        ),
+        ("lo = 1, hi = 2", "lo = 5, hi = 6", "settings.factor"),
+    ] {
+        assert!(RANGES.contains(from), "{from}");
+        let error = run_with(corpus.clone(), &RANGES.replace(from, to), &InProcess);
+        let error = error.unwrap_err().to_string();
+        for word in ["scale.corpus.toml", "found number 1", word, "hunt again"] {
+            assert!(error.contains(word), "{word} is not in\n{error}");
+        }
     }
 }
