@@ -46,23 +46,23 @@ pub(super) const ROWS: &[Known] = &[
         &[0.0, 0.0, 2.0, 1.0, 0.0, 0.0, 1.0],
         &[0.0, 2.0, 0.0],
     ),
-    // A stretch of 2 along x: cof = diag(1, 2, 2), brought to size by s₀ s₁ s₂ = 2.
+    // A stretch of 2 along x: cof = diag(1, 2, 2), brought to size by ¼ · ½ · ½.
     known(
         "cofactor_direction",
         &[2.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0],
-        &[0.5, 0.0, 1.0],
+        &[0.0625, 0.0, 0.125],
     ),
     // An axis 2^200 times as long as another still has its normal.
     known(
         "cofactor_direction",
         &[TINY, 0.0, 0.0, 0.0, HUGE, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0],
-        &[0.0, 7.888_609_052_210_118e-31, 0.0],
+        &[0.0, 9.860_761_315_262_648e-32, 0.0],
     ),
     // Flattened along y: the plane's normal is what it was, and directions within it are no normals.
     known(
         "cofactor_direction",
         &FLAT_WITH_Y,
-        &[0.0, 5.316_911_983_139_664e36, 0.0],
+        &[0.0, 6.646_139_978_924_58e35, 0.0],
     ),
     known("cofactor_direction", &FLAT_WITH_X, &[0.0, 0.0, 0.0]),
     known(
@@ -70,7 +70,7 @@ pub(super) const ROWS: &[Known] = &[
         &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
         &[0.0, 0.0, 0.0],
     ),
-    known("column_scales", &FLAT, &[1.0, 1.880_790_961_315_66e-37, 1.0]),
+    known("column_factors", &FLAT, &[0.5, 2.658_455_991_569_832e36, 0.5]),
     // Mirrors, however small or large their axes.
     known(
         "mirror_sign",
@@ -96,6 +96,13 @@ pub(super) const ROWS: &[Known] = &[
         &[-1.0],
     ),
     known("largest_component", &[1.0, -3.0, 2.0], &[3.0]),
+    known("size_factor", &[1.0], &[0.5]),
+    known("size_factor", &[0.999_999_94], &[1.0]),
+    known("size_factor", &[0.0], &[8.507_059_173_023_462e37]),
+    known("size_factor", &[3.402_823_5e38], &[1.175_494_350_822_287_5e-38]),
+    known("sized", &[3.0, -64.0, 64.0, 0.5], &[1.5, -4.0, 4.0]),
+    known("to_size", &[3.0, -4.0, 0.5], &[0.375, -0.5, 0.0625]),
+    known("to_size", &[0.0, 0.0, 0.0], &[0.0, 0.0, 0.0]),
     known("normalise", &[0.0, 0.0, 0.0], &[0.0, 0.0, 0.0]),
     known("normalise", &[3.0, 0.0, 4.0], &[0.6, 0.0, 0.8]),
     known("normalise", &[0.0, 2e19, 0.0], &[0.0, 1.0, 0.0]),

@@ -25,6 +25,18 @@ pub(super) const ROWS: &[Known] = &[
         &[0.5, 0.0, 4.0],
         &[1.0, 0.0, 2.0, 0.0, 0.5, 0.5],
     ),
+    // 1023/1024 has ten digits, 1025/2048 has eleven.
+    known(
+        "upper_bits",
+        &[1023.0 / 1024.0, 1025.0 / 2048.0],
+        &[1023.0 / 1024.0, 0.5],
+    ),
+    // Two thirds of the way across 16,383 texels: 10921.5 and what 24 digits of 2/3 are off by.
+    known(
+        "cube_footprint",
+        &[0.666_666_7, 0.0, 16_383.0],
+        &[10_921.0, 0.0, 10_922.0, 0.0, 0.500_325_500_965_118_4, 0.5],
+    ),
     // Beyond the face on either side: the texels at its border.
     known(
         "cube_footprint",

@@ -22,13 +22,22 @@ pub(super) const ROWS: Rows = &[
     }),
     ("bitangent", |a| out3(frame_mikktspace::bitangent(v3(a), v4(a)))),
     ("linear_part", |a| out9(DMat3::from_mat4(m4(a)))),
-    ("column_scales", |a| out3(column_scales(m3(a)))),
+    ("column_factors", |a| out3(column_factors(m3(a)))),
     ("cofactor_direction", |a| {
         let (linear, v) = (m3(a), v3(a));
         out3(scaled_cofactor(linear, v))
     }),
     ("mirror_sign", |a| vec![sign_not_zero(m3(a).determinant())]),
     ("largest_component", |a| vec![v3(a).abs().max_element()]),
+    ("size_factor", |a| vec![size_factor(a.scalar())]),
+    ("sized", |a| {
+        let (v, factor) = (v3(a), a.scalar());
+        out3((v * factor).clamp(DVec3::splat(-4.0), DVec3::splat(4.0)))
+    }),
+    ("to_size", |a| {
+        let v = v3(a);
+        out3(v * size_factor(v.abs().max_element()))
+    }),
     ("normalise", |a| out3(normalize_or_zero(v3(a)))),
     ("length_of", |a| vec![length_of(v3(a))]),
     ("normalise_published", |a| out3(normalize(v3(a)))),
@@ -68,15 +77,31 @@ pub(super) fn length_of(v: DVec3) -> f64 {
     }
 }
 
-/// The largest component of each column, not below 2⁻¹²².
-fn column_scales(linear: DMat3) -> DVec3 {
-    let largest = linear
-        .to_cols_array_2d()
-        .map(|c| DVec3::from_array(c).abs().max_element());
-    DVec3::from_array(largest).max(DVec3::splat(16.0 * SMALLEST_NORMAL_F32))
+/// The power of two by which a size comes to [½, 1). What is no normal f32 counts as the least exponent, what is above 2¹²⁵ as the greatest.
+fn size_factor(size: f64) -> f64 {
+    if size < SMALLEST_NORMAL_F32 {
+        return 126f64.exp2();
+    }
+    let exponent = size.log2().floor();
+    // log2 rounds: a number next to a power of two may come out on it.
+    let exponent = if exponent.exp2() > size {
+        exponent - 1.0
+    } else {
+        exponent
+    };
+    (-1.0 - exponent.min(125.0)).exp2()
 }
 
-/// cof(M) v divided by s₀ s₁ s₂ with s the columns' largest components: how the library brings its direction to size.
+/// That of the largest component of each column, which counts as 2⁻¹²² at least.
+fn column_factors(linear: DMat3) -> DVec3 {
+    let factor = |column: [f64; 3]| {
+        let largest = DVec3::from_array(column).abs().max_element();
+        size_factor(largest.max(16.0 * SMALLEST_NORMAL_F32))
+    };
+    DVec3::from_array(linear.to_cols_array_2d().map(factor))
+}
+
+/// cof(M) v times f₀ f₁ f₂ with f the columns' factors: how the library brings its direction to size.
 fn scaled_cofactor(linear: DMat3, v: DVec3) -> DVec3 {
-    normal_transform::cofactor(linear) * v / column_scales(linear).element_product()
+    normal_transform::cofactor(linear) * v * column_factors(linear).element_product()
 }

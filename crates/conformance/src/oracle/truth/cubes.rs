@@ -27,6 +27,7 @@ pub(super) const ROWS: Rows = &[
         let (st, size) = (v2(a), a.scalar());
         footprint(st, size)
     }),
+    ("upper_bits", |a| out2(upper_bits(v2(a)))),
     ("normalisation_cube_map", |a| {
         let [face, x, y, size] = a.array();
         let centre = texel_centre(face as usize, x as i64, y as i64, size as u32);
@@ -62,6 +63,16 @@ fn footprint(st: DVec2, size: f64) -> Vec<f64> {
         .into_iter()
         .flat_map(out2)
         .collect()
+}
+
+/// Each number cut off behind ten binary digits.
+fn upper_bits(v: DVec2) -> DVec2 {
+    let cut = |x: f64| {
+        // A subnormal number has its first digit lower down: 2⁻¹³⁵ is the place of its tenth.
+        let digit = x.abs().max(SMALLEST_NORMAL_F32).log2().floor() - 9.0;
+        (x / digit.exp2()).trunc() * digit.exp2()
+    };
+    DVec2::new(cut(v.x), cut(v.y))
 }
 
 /// What a map of that depth keeps of a normal, its components clamped.
