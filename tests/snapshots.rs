@@ -193,9 +193,10 @@ fn the_index_of_all_permutations() {
     let library = Library::embedded().unwrap();
     let modules = modules(&library);
     let sets = FeatureSet::reachable().len();
+    // A sum, not a product: 911 without the searches along the view ray, and 104 for each of these.
     assert!(
-        modules.len() < 1000,
-        "the feature model must keep modules in the hundreds: {}",
+        modules.len() < 1600,
+        "the feature model must keep the number of modules a sum: {}",
         modules.len()
     );
     let head = format!("{sets} feature sets, {} modules", modules.len());

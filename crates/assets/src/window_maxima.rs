@@ -1,5 +1,5 @@
 //! `window_maxima`: how far a view ray may run over each block of texels and the blocks ahead of it without meeting the surface. What the
-//! designs `window_…` of an exact search read (`docs/relief.md`).
+//! technique `exact` reads.
 //!
 //! The tile is divided into blocks of [`BLOCK`]² texels, the last of a side going on beyond the border by the edge mode. A texel of the map says
 //! for one block and one quadrant of directions, for windows of 1, 2, 4 and 8 blocks a side ([`REACHES`]) that begin with this block

@@ -12,7 +12,7 @@ fn plan_says_why() {
     let scene = repository("examples/brick_wall.toml");
     let table = bossage(&["plan", text(&scene)]).exits(0).stdout;
     assert!(
-        table.contains("material bricks: technique parallax_offset"),
+        table.contains("material bricks: technique steep_parallax layers=8 (auto)"),
         "{table}"
     );
     assert!(

@@ -21,11 +21,14 @@ mod light;
 #[cfg(test)]
 mod tests;
 
-use bossage_assets::EdgeMode;
+use bossage_assets::cone_map::ConeMap;
+use bossage_assets::{EdgeMode, HeightField};
 use glam::{DVec2, DVec3, DVec4};
 
 use crate::dot3_single_pass::Normaliser;
 use crate::environment_bump::{self, Environment};
+use crate::relief_ray::Layer;
+use crate::relief_search::{Maps, Search};
 use crate::texture::Texture;
 use crate::vector::{normalize, normalize_or_zero};
 use crate::{
@@ -112,6 +115,24 @@ pub enum Relief {
         /// Ambient light taken away by a unit of shift.
         occlusion: f64,
     },
+    /// To where the view ray meets the heights: one of [`crate::relief_search`], which reads [`Material::search_maps`].
+    Search {
+        /// The technique with its settings.
+        search: Search,
+        /// Where the relief lies.
+        layer: Layer,
+    },
+}
+
+/// What a search along the view ray reads.
+#[derive(Clone, Debug)]
+pub struct SearchMaps {
+    /// Heights in [0, 1].
+    pub heights: HeightField,
+    /// Free or relaxed cones.
+    pub cones: Option<ConeMap>,
+    /// Third components of unit normals, in green.
+    pub normal_z: Option<Texture>,
 }
 
 /// What light does.
@@ -159,6 +180,8 @@ pub struct Material {
     pub normal_decode: DVec2,
     /// Height map, height in red.
     pub height_map: Option<Texture>,
+    /// What [`Relief::Search`] reads.
+    pub search_maps: Option<SearchMaps>,
     /// Shift of the texture coordinates.
     pub relief: Relief,
     /// Ambient light, linear.
@@ -239,6 +262,7 @@ pub fn shifted_uv(material: &Material, at: &Interpolants, viewer: &Viewer, form:
     };
     match material.relief {
         Relief::None => moved(at.uv),
+        Relief::Search { search, layer } => moved(found(material, search, at.uv, view_ts, &layer)),
         Relief::Offset {
             form: Form::Published,
             scale,
@@ -303,6 +327,23 @@ pub fn shifted_uv(material: &Material, at: &Interpolants, viewer: &Viewer, form:
             }
         }
     }
+}
+
+/// The hit of a search; the place itself where the maps are missing that it reads.
+fn found(material: &Material, search: Search, uv: DVec2, view_ts: DVec3, layer: &Layer) -> DVec2 {
+    let Some(given) = &material.search_maps else {
+        return uv;
+    };
+    let normal_z = |uv: DVec2| sample(given.normal_z.as_ref(), material.edge, uv, DVec4::ONE).y;
+    let maps = Maps {
+        normal_z: Some(&normal_z),
+        cones: given.cones.as_ref(),
+        relaxed_cones: given.cones.as_ref(),
+        ..Maps::of_heights(&given.heights, material.edge)
+    };
+    search
+        .find(&maps, uv, view_ts, layer)
+        .map_or(uv, |found| found.record.uv)
 }
 
 /// The perturbed normal as it comes out of the frame, of any length.

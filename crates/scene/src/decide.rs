@@ -157,11 +157,13 @@ impl Subject<'_> {
             (EffectId::CofactorMatrix, cofactor),
             (EffectId::Handedness, handedness),
         ];
+        // A canonical feature set has no relief where nothing is left for it to move.
+        let drawn_by = chosen(features.relief == Relief::None, Technique::None, relief.technique);
         MaterialPlan {
             name: self.material.name.clone(),
-            technique: Technique::from(features.relief).id(),
-            settings: relief.technique.settings(),
-            how: relief.technique,
+            technique: drawn_by.id(),
+            settings: drawn_by.settings(),
+            how: drawn_by,
             technique_by: chosen(self.material.technique == TechniquePin::Auto, "auto", "pinned"),
             shading: features.shading.as_str(),
             shading_by: chosen(self.material.shading == Shading::BlinnPhong, "auto", "pinned"),

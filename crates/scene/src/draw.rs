@@ -15,7 +15,9 @@ use crate::camera::Matrices;
 use crate::facts::MaterialFacts;
 use crate::model::{AlphaMode, Elevation, Light, Material, Normaliser, Object, ReflectionPin, Scene};
 use crate::plan::Plan;
+use crate::relief_map;
 use crate::schema::MAX_LIGHTS;
+use crate::technique::{self, Settings};
 use crate::textures::Texture;
 use crate::tile::Tile;
 
@@ -32,7 +34,7 @@ pub struct Draw {
     pub mesh: Arc<Mesh>,
     /// Values by name (`object.clip_from_local`), matrices column by column, arrays flat.
     pub uniforms: BTreeMap<String, Vec<f32>>,
-    /// `albedo_map`, `normal_map`, `height_map`; the cubes `environment_map` and `normalisation_map`.
+    /// `albedo_map`, `normal_map`, `height_map`; `relief_map` where the feature set reads one; the cubes `environment_map` and `normalisation_map`.
     pub textures: BTreeMap<String, Arc<Texture>>,
     /// Address mode of `surface_sampler`, on both axes.
     pub edge: EdgeMode,
@@ -67,35 +69,40 @@ impl Draw {
 #[must_use]
 pub fn draws(scene: &Scene, plan: &Plan) -> Vec<Draw> {
     let drawn = |object: &Object| plan.materials[object.material].drawn;
-    build(scene, &|material| plan.features(material), &drawn)
+    let look = |material: usize| (plan.features(material), plan.settings(material));
+    build(scene, &look, &drawn)
 }
 
-/// The draws of a scene with feature sets of the caller's choosing, by material index; every object is drawn.
+/// The draws of a scene with feature sets and settings of the caller's choosing, by material index; every object is drawn.
 #[must_use]
-pub fn draws_with(scene: &Scene, features: impl Fn(usize) -> FeatureSet) -> Vec<Draw> {
-    build(scene, &features, &|_| true)
+pub fn draws_with(scene: &Scene, look: impl Fn(usize) -> (FeatureSet, Settings)) -> Vec<Draw> {
+    build(scene, &look, &|_| true)
 }
 
 fn build(
     scene: &Scene,
-    features: &dyn Fn(usize) -> FeatureSet,
+    look: &dyn Fn(usize) -> (FeatureSet, Settings),
     drawn: &dyn Fn(&Object) -> bool,
 ) -> Vec<Draw> {
     let environment = scene
         .environment
         .as_ref()
         .map(|environment| Arc::new(Texture::environment(&environment.map)));
-    let prepare = |material| Prepared::new(material, environment.as_ref());
-    let prepared: Vec<Prepared> = scene.materials.iter().map(prepare).collect();
+    let looks: Vec<_> = (0..scene.materials.len()).map(look).collect();
+    let prepare =
+        |(material, look): (_, &(FeatureSet, _))| Prepared::new(material, environment.as_ref(), look.0);
+    let prepared: Vec<Prepared> = scene.materials.iter().zip(&looks).map(prepare).collect();
     let draw = |object: &Object| {
         let prepared = &prepared[object.material];
-        let features = features(object.material);
+        let (features, settings) = &looks[object.material];
+        let mut uniforms = uniforms(scene, object, prepared, features);
+        uniforms.insert("material.search".to_owned(), search(prepared.material, settings));
         Draw {
             object: object.name.clone(),
             material: prepared.material.name.clone(),
-            features,
+            features: *features,
             mesh: object.mesh.clone(),
-            uniforms: uniforms(scene, object, prepared, &features),
+            uniforms,
             textures: prepared.textures.clone(),
             edge: prepared.material.address,
         }
@@ -116,7 +123,7 @@ struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    fn new(material: &'a Material, environment: Option<&Arc<Texture>>) -> Self {
+    fn new(material: &'a Material, environment: Option<&Arc<Texture>>, features: FeatureSet) -> Self {
         let albedo = material
             .albedo
             .map
@@ -144,6 +151,8 @@ impl<'a> Prepared<'a> {
             .into_iter()
             .map(|(name, texture)| (name.to_owned(), Arc::new(texture)))
             .collect();
+        let relief_map = relief_map::bake(features.relief, material.height.as_ref(), material.address);
+        textures.extend(relief_map.map(|map| ("relief_map".to_owned(), Arc::new(map))));
         // What mirrors nothing has nothing around it, whatever shader draws it.
         let black = || Arc::new(Texture::constant_environment([0.0, 0.0, 0.0, 1.0]));
         let mirrored = environment.filter(|_| material.reflection != ReflectionPin::None);
@@ -318,6 +327,17 @@ fn relief(prepared: &Prepared<'_>, features: &FeatureSet) -> Vec<f32> {
         }
         Some(_) | None => vec![0.0, 0.0, 1.0, 0.0],
     }
+}
+
+/// Layers, steps or iterations, refinements, and the sampler's edge mode.
+fn search(material: &Material, settings: &Settings) -> Vec<f32> {
+    let [steps, refinements] = technique::numbers(settings);
+    let edge = match material.address {
+        EdgeMode::Wrap => 0.0,
+        EdgeMode::Mirror => 1.0,
+        EdgeMode::Clamp => 2.0,
+    };
+    vec![steps as f32, refinements as f32, edge, 0.0]
 }
 
 /// The texels toward the light in texture coordinates of the longer side.

@@ -12,6 +12,7 @@ use crate::fields::{ANY, Bound, NOT_NEGATIVE, POSITIVE, Table, UNIT, UNIT_NOT_ZE
 use crate::files::{Files, chain};
 use crate::load::{Named, refuse};
 use crate::load_normal::{self, Heights};
+use crate::load_search;
 use crate::model::{
     AlbedoSource, AlphaMode, Elevation, HeightSource, Material, Normaliser, ReflectionPin, Tangents,
     TechniquePin,
@@ -89,6 +90,7 @@ pub(crate) fn material(table: &Table<'_>, files: &Files) -> Option<Material> {
     };
     let alpha = table.or("alpha", uncut, alpha);
     let technique = table.or("technique", TechniquePin::Auto, |v| v.word(&TechniquePin::NAMES));
+    let search = technique.and_then(|pin| load_search::settings(table, pin));
     let occlusion = table.or("occlusion", schema::OCCLUSION, |v| v.number(NOT_NEGATIVE));
     let normaliser = table.or("normaliser", Normaliser::Arithmetic, |v| normaliser(v, shading));
     let emboss_texels = table.or("emboss_texels", schema::EMBOSS_TEXELS, |v| v.number(POSITIVE));
@@ -106,6 +108,7 @@ pub(crate) fn material(table: &Table<'_>, files: &Files) -> Option<Material> {
         alpha: alpha?,
         address: address?,
         technique: technique?,
+        search: search?,
         occlusion: occlusion?,
         shading: shading?,
         normaliser: normaliser?,

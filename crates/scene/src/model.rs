@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use bossage_assets::normal_mips::NormalMips;
 use bossage_assets::{ColorMap, CubeMap, EdgeMode, HeightField, Mesh, NormalMap, NormalisationCubeMap};
+use bossage_reference::relief_search::Search;
 use bossage_shaders::{Form, LightingSpace, Relief, Shading};
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 
@@ -154,6 +155,8 @@ pub struct Material {
     pub address: EdgeMode,
     /// `auto` or a technique.
     pub technique: TechniquePin,
+    /// The settings that go with a pinned search; where there are none, those of the schema count.
+    pub search: Option<Search>,
     /// How much ambient light a unit of shift takes away, for the techniques that occlude it.
     pub occlusion: f64,
     /// What light does.
@@ -249,11 +252,23 @@ pub enum TechniquePin {
     ParallaxSlopeAoDirected,
     /// `displacement`.
     Displacement,
+    /// `parallax_iterative`.
+    ParallaxIterative,
+    /// `steep_parallax`.
+    SteepParallax,
+    /// `parallax_occlusion`.
+    ParallaxOcclusion,
+    /// `relief`.
+    Relief,
+    /// `cone_step`.
+    ConeStep,
+    /// `relaxed_cone_step`.
+    RelaxedConeStep,
 }
 
 impl TechniquePin {
     /// Every word and what it means.
-    pub const NAMES: [(&'static str, Self); 7] = [
+    pub const NAMES: [(&'static str, Self); 13] = [
         ("auto", Self::Auto),
         ("none", Self::None),
         ("parallax_offset", Self::ParallaxOffset),
@@ -261,6 +276,12 @@ impl TechniquePin {
         ("parallax_slope_ao", Self::ParallaxSlopeAo),
         ("parallax_slope_ao_directed", Self::ParallaxSlopeAoDirected),
         ("displacement", Self::Displacement),
+        ("parallax_iterative", Self::ParallaxIterative),
+        ("steep_parallax", Self::SteepParallax),
+        ("parallax_occlusion", Self::ParallaxOcclusion),
+        ("relief", Self::Relief),
+        ("cone_step", Self::ConeStep),
+        ("relaxed_cone_step", Self::RelaxedConeStep),
     ];
 
     /// The word used in scene files and on the command line.
@@ -280,6 +301,12 @@ impl TechniquePin {
             Self::ParallaxSlopeAo => Some(Relief::ParallaxSlopeAo),
             Self::ParallaxSlopeAoDirected => Some(Relief::ParallaxSlopeAoDirected),
             Self::Displacement => Some(Relief::Displacement),
+            Self::ParallaxIterative => Some(Relief::ParallaxIterative),
+            Self::SteepParallax => Some(Relief::SteepParallax),
+            Self::ParallaxOcclusion => Some(Relief::ParallaxOcclusion),
+            Self::Relief => Some(Relief::Relief),
+            Self::ConeStep => Some(Relief::ConeStep),
+            Self::RelaxedConeStep => Some(Relief::RelaxedConeStep),
         }
     }
 }

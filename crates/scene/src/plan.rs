@@ -50,6 +50,12 @@ impl Plan {
         self.materials[material].everything
     }
 
+    /// The settings of a material's relief technique, by its index in the scene.
+    #[must_use]
+    pub fn settings(&self, material: usize) -> Settings {
+        self.materials[material].settings.clone()
+    }
+
     /// The budget in words.
     #[must_use]
     pub fn wanted(&self) -> String {

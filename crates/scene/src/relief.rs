@@ -53,8 +53,7 @@ pub(crate) fn decide(subject: &Subject<'_>, textured: bool) -> ReliefPlan {
         return without("no map is left that it would displace", facts, NO_ERROR);
     }
     let mut sampler = Sampler::new(subject.material, height, &subject.views, None);
-    if let Some(relief) = pin.relief() {
-        let technique = Technique::from(relief);
+    if let Some(technique) = Technique::pinned(subject.material) {
         return pinned(technique, facts, predicted(&mut sampler, technique, subject));
     }
     let shifts_nothing = match shading {

@@ -83,7 +83,10 @@ fn relief(material: &Material, at: Field<'_>) -> Option<Refusal> {
             format!("add `{height}` with a map, or set technique to `auto`"),
         );
     }
-    if wanted.is_offset() && material.albedo.map.is_none() && material.normal.is_none() {
+    if (wanted.is_offset() || wanted.is_search())
+        && material.albedo.map.is_none()
+        && material.normal.is_none()
+    {
         return no(
             format!("`{word}` has nothing to displace: there is neither `{albedo}` nor `{normal}`"),
             format!("add `{albedo}` or `{normal}`, or set technique to `auto`"),
@@ -104,6 +107,12 @@ fn relief(material: &Material, at: Field<'_>) -> Option<Refusal> {
             reliefs_of(material.shading).to_owned(),
         );
     }
+    if wanted.is_search() && material.form == Form::Published {
+        return no(
+            format!("`{word}` has one form"),
+            "set form to `hardened`, or technique to another".to_owned(),
+        );
+    }
     if technique == TechniquePin::ParallaxSlopeAoDirected && material.form == Form::Published {
         return no(
             format!("`{word}` is the cure of a published technique and has no published form"),
@@ -116,7 +125,7 @@ fn relief(material: &Material, at: Field<'_>) -> Option<Refusal> {
 fn goes_with(shading: Shading, relief: Relief) -> bool {
     match shading {
         Shading::BlinnPhong => true,
-        Shading::WrapLambert => !relief.is_offset(),
+        Shading::WrapLambert => !relief.is_offset() && !relief.is_search(),
         Shading::Emboss | Shading::Dot3SinglePass | Shading::Dot3TwoPass => relief == Relief::None,
     }
 }

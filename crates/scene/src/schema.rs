@@ -44,7 +44,11 @@
 //! | `materials.alpha.mode` | `opaque`, `mask` | `opaque`; with `wrap_lambert` `mask` at 0.01 |
 //! | `materials.alpha.cutoff` | in (0, 1], `mask` only | required with `mask` |
 //! | `materials.address` | `wrap`, `mirror`, `clamp` | `wrap` |
-//! | `materials.technique` | `auto`, `none`, `parallax_offset`, `parallax_offset_limited`, `parallax_slope_ao`, `parallax_slope_ao_directed`, `displacement` | `auto` |
+//! | `materials.technique` | `auto`, `none`, `parallax_offset`, `parallax_offset_limited`, `parallax_slope_ao`, `parallax_slope_ao_directed`, `displacement`, `parallax_iterative`, `steep_parallax`, `parallax_occlusion`, `relief`, `cone_step`, `relaxed_cone_step` | `auto` |
+//! | `materials.iterations` | 1 to 4096; `parallax_iterative` only | `4` |
+//! | `materials.layers` | 1 to 4096; `steep_parallax`, `parallax_occlusion`, `relief` only | `32`; `16` of `relief` |
+//! | `materials.steps` | 1 to 4096; `cone_step`, `relaxed_cone_step` only | `32`; `16` of `relaxed_cone_step` |
+//! | `materials.refinements` | 0 to 24; `relief`, `relaxed_cone_step` only | `5` |
 //! | `materials.occlusion` | ≥ 0: ambient light taken away by a unit of `parallax_slope_ao`'s shift | `40` |
 //! | `materials.shading` | `blinn_phong`, `wrap_lambert`, `emboss`, `dot3_single_pass`, `dot3_two_pass` | `blinn_phong` |
 //! | `materials.normaliser.kind` | `arithmetic`, `cube`; `dot3` only | `arithmetic` |
@@ -71,8 +75,8 @@
 //!
 //! Rules across keys:
 //!
-//! - A pinned relief technique needs `height`. The offsets need something textured to displace too (`albedo.map` or
-//!   `normal`), the slope techniques `normal`.
+//! - A pinned relief technique needs `height`. The offsets and the searches along the view ray need something textured to displace too (`albedo.map` or
+//!   `normal`), the slope techniques `normal`. The searches go with `blinn_phong` and have one form.
 //! - `emboss` needs `height`, `dot3_single_pass` and `dot3_two_pass` need `normal`; these and `wrap_lambert` have exactly one
 //!   light that is not black. Of relief techniques `wrap_lambert` goes with the slope's two and `displacement`, `emboss` and
 //!   `dot3` with none. `wrap_lambert` has one ambient value: `ambient` must be grey.
@@ -83,7 +87,10 @@
 //! - A height map that is constant is the polygon itself, whatever `scale` and `bias`, unless a technique is pinned.
 //! - World depth: z_u = depth/tile width, z_v = depth/tile height, bias = −scale on each axis.
 
+use bossage_reference::relief_search::Search;
 use glam::{DVec2, DVec3, DVec4};
+
+use crate::model::TechniquePin;
 
 /// The version this crate reads.
 pub const SCHEMA: u32 = 1;
@@ -118,6 +125,37 @@ pub const SPECULAR: DVec3 = DVec3::ZERO;
 pub const SHININESS: f64 = 32.0;
 /// Default `materials.occlusion`, as published.
 pub const OCCLUSION: f64 = 40.0;
+/// Most layers, steps or iterations of a search: what its shader counts to.
+pub const MAX_STEPS: u32 = 4096;
+/// Most refinements: after that a bracket is no longer wider than the rounding of its ends.
+pub const MAX_REFINEMENTS: u32 = 24;
+
+/// A search with its default settings; none for pins that are no search.
+#[must_use]
+pub fn search(pin: TechniquePin) -> Option<Search> {
+    match pin {
+        TechniquePin::ParallaxOffset => Some(Search::ParallaxOffset),
+        TechniquePin::ParallaxOffsetLimited => Some(Search::ParallaxOffsetLimited),
+        TechniquePin::ParallaxIterative => Some(Search::ParallaxIterative { iterations: 4 }),
+        TechniquePin::SteepParallax => Some(Search::SteepParallax { layers: 32 }),
+        TechniquePin::ParallaxOcclusion => Some(Search::ParallaxOcclusion { layers: 32 }),
+        TechniquePin::Relief => Some(Search::Relief {
+            layers: 16,
+            refinements: 5,
+        }),
+        TechniquePin::ConeStep => Some(Search::ConeStep { steps: 32 }),
+        TechniquePin::RelaxedConeStep => Some(Search::RelaxedConeStep {
+            steps: 16,
+            refinements: 5,
+        }),
+        TechniquePin::Auto
+        | TechniquePin::None
+        | TechniquePin::ParallaxSlopeAo
+        | TechniquePin::ParallaxSlopeAoDirected
+        | TechniquePin::Displacement => None,
+    }
+}
+
 /// Default `materials.emboss_texels`.
 pub const EMBOSS_TEXELS: f64 = 1.0;
 /// The alpha below which `wrap_lambert` cuts out, as published.

@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 use bossage_reference::relief_search::Search;
 use bossage_shaders::Relief;
 
+use crate::model::{Material, TechniquePin};
+use crate::schema;
+
 /// Settings by name, sorted.
 pub type Settings = BTreeMap<&'static str, u32>;
 
@@ -24,7 +27,7 @@ pub enum Technique {
 }
 
 impl Technique {
-    /// All that `auto` chooses from once the surface can draw it, with settings that lie a factor of two apart. In no order.
+    /// All that `auto` chooses from where the surface can draw it, with settings that lie a factor of two apart. In no order.
     #[must_use]
     pub fn ladder() -> Vec<Self> {
         let mut ladder = vec![
@@ -78,28 +81,46 @@ impl Technique {
             Self::Displacement => Some(Relief::Displacement),
             Self::Search(Search::ParallaxOffsetLimited) => Some(Relief::ParallaxOffsetLimited),
             Self::Search(Search::ParallaxOffset) => Some(Relief::ParallaxOffset),
-            Self::Search(
-                Search::ParallaxIterative { .. }
-                | Search::SteepParallax { .. }
-                | Search::ParallaxOcclusion { .. }
-                | Search::Relief { .. }
-                | Search::ConeStep { .. }
-                | Search::RelaxedConeStep { .. }
-                | Search::Exact,
-            ) => None,
+            Self::Search(Search::ParallaxIterative { .. }) => Some(Relief::ParallaxIterative),
+            Self::Search(Search::SteepParallax { .. }) => Some(Relief::SteepParallax),
+            Self::Search(Search::ParallaxOcclusion { .. }) => Some(Relief::ParallaxOcclusion),
+            Self::Search(Search::Relief { .. }) => Some(Relief::Relief),
+            Self::Search(Search::ConeStep { .. }) => Some(Relief::ConeStep),
+            Self::Search(Search::RelaxedConeStep { .. }) => Some(Relief::RelaxedConeStep),
+            // Its walk has no interval that a whole surface could be judged by.
+            Self::Search(Search::Exact) => None,
+        }
+    }
+
+    /// What a material pins, with the settings that it gives or those of the schema; none where the planner chooses.
+    #[must_use]
+    pub fn pinned(material: &Material) -> Option<Self> {
+        let pin = material.technique;
+        match pin {
+            TechniquePin::Auto => None,
+            TechniquePin::None => Some(Self::None),
+            TechniquePin::ParallaxSlopeAo => Some(Self::ParallaxSlopeAo),
+            TechniquePin::ParallaxSlopeAoDirected => Some(Self::ParallaxSlopeAoDirected),
+            TechniquePin::Displacement => Some(Self::Displacement),
+            TechniquePin::ParallaxOffset
+            | TechniquePin::ParallaxOffsetLimited
+            | TechniquePin::ParallaxIterative
+            | TechniquePin::SteepParallax
+            | TechniquePin::ParallaxOcclusion
+            | TechniquePin::Relief
+            | TechniquePin::ConeStep
+            | TechniquePin::RelaxedConeStep => material
+                .search
+                .filter(|search| search.id() == pin.as_str())
+                .or_else(|| schema::search(pin))
+                .map(Self::Search),
         }
     }
 }
 
-impl From<Relief> for Technique {
-    fn from(relief: Relief) -> Self {
-        match relief {
-            Relief::None => Self::None,
-            Relief::ParallaxOffset => Self::Search(Search::ParallaxOffset),
-            Relief::ParallaxOffsetLimited => Self::Search(Search::ParallaxOffsetLimited),
-            Relief::ParallaxSlopeAo => Self::ParallaxSlopeAo,
-            Relief::ParallaxSlopeAoDirected => Self::ParallaxSlopeAoDirected,
-            Relief::Displacement => Self::Displacement,
-        }
-    }
+/// The settings as the surface's uniform has them: layers, steps or iterations, and refinements.
+pub(crate) fn numbers(settings: &Settings) -> [u32; 2] {
+    let of = |name: &str| settings.get(name).copied();
+    let steps = of("layers").or_else(|| of("steps")).or_else(|| of("iterations"));
+    [steps.unwrap_or(0), of("refinements").unwrap_or(0)]
 }

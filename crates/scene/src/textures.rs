@@ -153,7 +153,7 @@ impl Texture {
         }
     }
 
-    fn plane(levels: Vec<Level>) -> Self {
+    pub(crate) fn plane(levels: Vec<Level>) -> Self {
         Self {
             shape: TextureShape::Plane,
             levels,
@@ -180,12 +180,17 @@ impl Texture {
     }
 
     pub(crate) fn height(field: &HeightField) -> Self {
+        Self::chain(mips::height_chain(field))
+    }
+
+    /// Levels of one number a texel.
+    pub(crate) fn chain(levels: Vec<HeightField>) -> Self {
         let level = |field: HeightField| Level {
             width: field.width,
             height: field.height,
             texels: Texels::R32Float(field.texels),
         };
-        Self::plane(mips::height_chain(field).into_iter().map(level).collect())
+        Self::plane(levels.into_iter().map(level).collect())
     }
 }
 

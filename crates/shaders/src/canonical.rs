@@ -9,6 +9,7 @@
 //! - `dot3` reads a normal map and shifts nothing; in two passes the mask would be known only in the second, so there is none;
 //! - `parallax_slope_ao` reads a normal map, and goes without a reflection; the directed form is a cure, so it has one form;
 //! - `displacement` makes its own normals: no normal map;
+//! - a search along the view ray goes with `blinn_phong` and has one form;
 //! - a reflection is as bright as the specular colour, so where there is light there is a highlight too, and it is looked up in
 //!   world space.
 //!
@@ -70,7 +71,7 @@ impl FeatureSet {
         match self.shading {
             Shading::BlinnPhong => return,
             Shading::WrapLambert => {
-                if self.relief.is_offset() {
+                if self.relief.is_offset() || self.relief.is_search() {
                     self.relief = Relief::None;
                 }
             }
@@ -102,7 +103,13 @@ impl FeatureSet {
             self.environment = false;
         }
         match self.relief {
-            Relief::ParallaxSlopeAoDirected => self.form = Form::Hardened,
+            Relief::ParallaxSlopeAoDirected
+            | Relief::ParallaxIterative
+            | Relief::SteepParallax
+            | Relief::ParallaxOcclusion
+            | Relief::Relief
+            | Relief::ConeStep
+            | Relief::RelaxedConeStep => self.form = Form::Hardened,
             Relief::Displacement => self.normal = NormalSource::Geometric,
             Relief::None
             | Relief::ParallaxOffset
@@ -122,7 +129,7 @@ impl FeatureSet {
             self.specular = true;
         }
         let nothing_sampled = self.albedo == Albedo::Constant && self.normal == NormalSource::Geometric;
-        if nothing_sampled && self.relief.is_offset() {
+        if nothing_sampled && (self.relief.is_offset() || self.relief.is_search()) {
             self.relief = Relief::None;
         }
     }

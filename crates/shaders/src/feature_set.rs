@@ -27,17 +27,35 @@ pub enum Relief {
     ParallaxSlopeAoDirected,
     /// The mesh's own vertices, moved along N by z(h), with new normals: nothing is left for the fragment stage to do.
     Displacement,
+    /// A few steps along the view by the height above the ray. Reads heights and the third component of normals from one map.
+    ParallaxIterative,
+    /// A linear march along the view ray.
+    SteepParallax,
+    /// A linear march and one secant step.
+    ParallaxOcclusion,
+    /// A linear march and bisection.
+    Relief,
+    /// Free cones, from a map of heights and cones.
+    ConeStep,
+    /// Cones that cross the surface once, and bisection.
+    RelaxedConeStep,
 }
 
 impl Relief {
     /// All of them, in order.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 12] = [
         Self::None,
         Self::ParallaxOffset,
         Self::ParallaxOffsetLimited,
         Self::ParallaxSlopeAo,
         Self::ParallaxSlopeAoDirected,
         Self::Displacement,
+        Self::ParallaxIterative,
+        Self::SteepParallax,
+        Self::ParallaxOcclusion,
+        Self::Relief,
+        Self::ConeStep,
+        Self::RelaxedConeStep,
     ];
 
     /// Whether the shift comes from the slope of the normal map and occludes ambient light.
@@ -52,10 +70,44 @@ impl Relief {
         matches!(self, Self::ParallaxOffset | Self::ParallaxOffsetLimited)
     }
 
+    /// Whether the view ray is followed to where it meets the heights.
+    #[must_use]
+    pub fn is_search(self) -> bool {
+        match self {
+            Self::ParallaxIterative
+            | Self::SteepParallax
+            | Self::ParallaxOcclusion
+            | Self::Relief
+            | Self::ConeStep
+            | Self::RelaxedConeStep => true,
+            Self::None
+            | Self::ParallaxOffset
+            | Self::ParallaxOffsetLimited
+            | Self::ParallaxSlopeAo
+            | Self::ParallaxSlopeAoDirected
+            | Self::Displacement => false,
+        }
+    }
+
+    /// Whether a map is read that is baked for it from the heights.
+    #[must_use]
+    pub fn reads_relief_map(self) -> bool {
+        matches!(
+            self,
+            Self::ParallaxIterative | Self::ConeStep | Self::RelaxedConeStep
+        )
+    }
+
+    /// Whether the fragment stage reads the height map itself for it.
+    #[must_use]
+    pub fn reads_heights(self) -> bool {
+        self.shifts() && !self.reads_relief_map()
+    }
+
     /// Whether the fragment stage shifts its texture coordinate.
     #[must_use]
     pub fn shifts(self) -> bool {
-        self.is_offset() || self.is_slope()
+        self.is_offset() || self.is_slope() || self.is_search()
     }
 }
 

@@ -99,6 +99,12 @@ fn relief(relief: Relief) -> Option<&'static str> {
         Relief::ParallaxSlopeAo => Some("parallax_slope_ao"),
         Relief::ParallaxSlopeAoDirected => Some("parallax_slope_ao_directed"),
         Relief::Displacement => Some("displacement"),
+        Relief::ParallaxIterative => Some("parallax_iterative"),
+        Relief::SteepParallax => Some("steep_parallax"),
+        Relief::ParallaxOcclusion => Some("parallax_occlusion"),
+        Relief::Relief => Some("relief"),
+        Relief::ConeStep => Some("cone_step"),
+        Relief::RelaxedConeStep => Some("relaxed_cone_step"),
     }
 }
 

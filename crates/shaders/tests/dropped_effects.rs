@@ -27,21 +27,103 @@ const EFFECTS: &[Effect] = &[
         fragment: &["relief"],
     },
     Effect {
-        name: "offset",
-        on: |set| set.relief.is_offset(),
+        name: "elevation",
+        on: |set| set.relief.is_offset() || set.relief == Relief::ParallaxIterative,
         vertex: &[],
-        fragment: &["elevation", "MIN_VIEW_Z"],
+        fragment: &["elevation"],
     },
     Effect {
         name: "height map in the fragment stage",
+        on: |set| set.relief.reads_heights() || set.shading == Shading::Emboss,
+        vertex: &[],
+        fragment: &["height_map"],
+    },
+    Effect {
+        name: "a height",
         on: |set| set.relief.shifts() || set.shading == Shading::Emboss,
         vertex: &[],
-        fragment: &["height_map", "height"],
+        fragment: &["height"],
+    },
+    Effect {
+        name: "search",
+        on: |set| set.relief.is_search(),
+        vertex: &[],
+        fragment: &[
+            "search",
+            "HitRecord",
+            "HeightRead",
+            "hit",
+            "level",
+            "relief_level",
+        ],
+    },
+    Effect {
+        name: "search along the ray",
+        on: |set| set.relief.is_search() && set.relief != Relief::ParallaxIterative,
+        vertex: &[],
+        fragment: &["ReliefRay", "relief_ray", "ray"],
+    },
+    Effect {
+        name: "map baked for a search",
+        on: |set| set.relief.reads_relief_map(),
+        vertex: &[],
+        fragment: &["relief_map"],
+    },
+    Effect {
+        name: "flattest view",
+        on: |set| {
+            set.relief == Relief::ParallaxOffset
+                || (set.relief.is_search() && set.relief != Relief::ParallaxIterative)
+        },
+        vertex: &[],
+        fragment: &["MIN_VIEW_Z"],
+    },
+    Effect {
+        name: "march",
+        on: |set| {
+            matches!(
+                set.relief,
+                Relief::SteepParallax | Relief::ParallaxOcclusion | Relief::Relief
+            )
+        },
+        vertex: &[],
+        fragment: &["first_below"],
+    },
+    Effect {
+        name: "parallax_iterative",
+        on: |set| set.relief == Relief::ParallaxIterative,
+        vertex: &[],
+        fragment: &["parallax_iterative"],
+    },
+    Effect {
+        name: "steep_parallax",
+        on: |set| set.relief == Relief::SteepParallax,
+        vertex: &[],
+        fragment: &["steep_parallax"],
+    },
+    Effect {
+        name: "parallax_occlusion",
+        on: |set| set.relief == Relief::ParallaxOcclusion,
+        vertex: &[],
+        fragment: &["parallax_occlusion", "secant_share"],
+    },
+    Effect {
+        name: "cone_step",
+        on: |set| set.relief == Relief::ConeStep,
+        vertex: &[],
+        fragment: &["cone_step"],
+    },
+    Effect {
+        name: "relaxed_cone_step",
+        on: |set| set.relief == Relief::RelaxedConeStep,
+        vertex: &[],
+        fragment: &["relaxed_cone_step"],
     },
     Effect {
         name: "tangent-space vector",
         on: |set| {
             set.relief.is_offset()
+                || set.relief.is_search()
                 || set.relief == Relief::ParallaxSlopeAoDirected
                 || set.shading == Shading::Emboss
                 || set.shading.is_dot3()
@@ -57,7 +139,6 @@ const EFFECTS: &[Effect] = &[
             "slope_texel",
             "slope_normal",
             "slope_view_dir",
-            "delta",
             "parallax_slope_ao_delta",
             "parallax_slope_ao_delta_published",
             "slope_occlusion",
@@ -154,7 +235,7 @@ const EFFECTS: &[Effect] = &[
         name: "parallax_offset",
         on: |set| set.relief == Relief::ParallaxOffset,
         vertex: &[],
-        fragment: &["parallax_offset", "parallax_offset_published", "MIN_VIEW_Z"],
+        fragment: &["parallax_offset", "parallax_offset_published"],
     },
     Effect {
         name: "parallax_offset_limited",
@@ -221,7 +302,7 @@ const EFFECTS: &[Effect] = &[
         name: "many lights",
         on: |set| set.lights == Lights::Many,
         vertex: &[],
-        fragment: &["lights", "Lights", "MAX_LIGHTS", "items", "count", "index", "for"],
+        fragment: &["lights", "Lights", "MAX_LIGHTS", "items", "count"],
     },
     Effect {
         name: "specular",

@@ -70,7 +70,7 @@ fn all() -> Vec<FeatureSet> {
             .map(|form| FeatureSet { form, ..s })
             .to_vec()
     });
-    assert_eq!(sets.len(), 122_880);
+    assert_eq!(sets.len(), 245_760);
     sets
 }
 
@@ -120,8 +120,9 @@ fn all_effects_keeps_what_is_pinned_and_turns_on_all_that_goes_with_it() {
         if planned.relief != Relief::None {
             assert_eq!(every.relief, planned.relief);
         }
-        let one_form =
-            every.normaliser == Normaliser::Cube || every.relief == Relief::ParallaxSlopeAoDirected;
+        let one_form = every.normaliser == Normaliser::Cube
+            || every.relief == Relief::ParallaxSlopeAoDirected
+            || every.relief.is_search();
         assert_eq!(every.form, if one_form { Form::Hardened } else { set.form });
         let two_pass = every.shading == Shading::Dot3TwoPass;
         assert_eq!(every.alpha == Alpha::Mask, !two_pass, "{}", every.name());

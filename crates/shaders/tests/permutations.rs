@@ -7,7 +7,7 @@ use std::time::Instant;
 use bossage_shaders::{AssembledShader, FeatureSet, Kernel, Library, PROBES, Result, Stage};
 
 /// The promise of the feature model: the golden index of permutations stays readable.
-const MOST_MODULES: usize = 1000;
+const MOST_MODULES: usize = 1600;
 
 fn validate(shader: &AssembledShader) -> std::result::Result<naga::Module, String> {
     let module = naga::front::wgsl::parse_str(&shader.wgsl).map_err(|error| {

@@ -160,17 +160,20 @@ fn together(
     Ok((comparison, theirs.pixels.len()))
 }
 
-/// A hardened surface promises an answer at every pixel.
+/// A hardened surface promises an answer at every pixel. A search along the view ray does so too, but the evaluator follows a march whose
+/// steps can all go either way only to its limits: such a pixel is counted as undecided.
 fn demanding(draw: &Draw) -> Comparison {
     match draw.features.form {
-        Form::Hardened => Comparison::demanding_answers(),
-        Form::Published => Comparison::default(),
+        Form::Hardened if !draw.features.relief.is_search() => Comparison::demanding_answers(),
+        Form::Hardened | Form::Published => Comparison::default(),
     }
 }
 
 /// The same object with every effect on.
 fn everything(scene: &Scene, plan: &Plan, draw: &Draw) -> Draw {
-    let all = draws_with(scene, |material| plan.everything(material));
+    let all = draws_with(scene, |material| {
+        (plan.everything(material), plan.settings(material))
+    });
     all.into_iter()
         .find(|full| full.object == draw.object)
         .unwrap_or_else(|| draw.clone())
@@ -198,7 +201,9 @@ impl Case for SceneCase {
     fn modules(&self) -> Result<Vec<Module>, String> {
         let (scene, plan) = self.scene()?;
         let planned = draws(scene, plan);
-        let full = draws_with(scene, |material| plan.everything(material));
+        let full = draws_with(scene, |material| {
+            (plan.everything(material), plan.settings(material))
+        });
         let drawn = match self.shaders {
             Shaders::Planned => planned,
             Shaders::AllEffects => full,

@@ -198,6 +198,13 @@ const MUTANTS: &[Mutant] = &[
         file: "entry/surface_fragment.wesl",
         from: "let z = elevation(height,",
         to: "let z = -elevation(height,",
+        filter: "surface/hardened/permutations:shading=blinn_phong",
+    },
+    Mutant {
+        what: "the surface's search through a layer that is turned over along v",
+        file: "entry/surface_fragment.wesl",
+        from: "let ray = relief_ray(interpolated.uv, view_dir_ts, material.relief.xyz);",
+        to: "let ray = relief_ray(interpolated.uv, view_dir_ts, material.relief.xyz * vec3f(1.0, 1.0, -1.0));",
         filter: "scene/planned:scene=brick_wall",
     },
     Mutant {

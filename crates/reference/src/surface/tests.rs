@@ -15,6 +15,7 @@ fn plain() -> Material {
         normal_map: None,
         normal_decode: DVec2::new(2.0, -1.0),
         height_map: None,
+        search_maps: None,
         relief: Relief::None,
         ambient: DVec3::splat(0.5),
         specular: None,

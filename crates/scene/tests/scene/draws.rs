@@ -1,12 +1,12 @@
 //! Draws: complete for the planned shader and for the one with all effects, and right in their numbers.
 
-use bossage_scene::{Draw, Pass, Texels, TextureShape, draws, draws_with, plan};
+use bossage_scene::{Draw, Pass, Settings, Texels, TextureShape, draws, draws_with, plan};
 use bossage_shaders::{FeatureSet, LightingSpace, Shading, Stage};
 
 use crate::fixture::{Folder, LAMP, SUN, example, one_plane};
 
 /// Every member of the surface's uniform buffers and how many floats it takes.
-const UNIFORMS: [(&str, usize); 20] = [
+const UNIFORMS: [(&str, usize); 21] = [
     ("light.radiance", 4),
     ("light.vector", 4),
     ("lights.count", 4),
@@ -18,6 +18,7 @@ const UNIFORMS: [(&str, usize); 20] = [
     ("material.normal_decode", 2),
     ("material.occlusion", 1),
     ("material.relief", 4),
+    ("material.search", 4),
     ("material.shininess", 1),
     ("material.specular", 4),
     ("object.clip_from_local", 16),
@@ -92,7 +93,9 @@ fn complete_for_the_plan_and_for_all_effects() {
         let scene = example(name);
         let plan = plan(&scene);
         let planned = draws(&scene, &plan);
-        let full = draws_with(&scene, |material| plan.everything(material));
+        let full = draws_with(&scene, |material| {
+            (plan.everything(material), plan.settings(material))
+        });
         assert_eq!(
             (planned.len(), full.len()),
             (scene.objects.len(), scene.objects.len())
@@ -178,7 +181,7 @@ fn a_constant_map_is_folded_into_the_colour() {
         "albedo = { map = \"c.png\", color = [0.5, 1.0, 0.25] }",
         "",
     ));
-    let full = draws_with(&scene, |_| FeatureSet::default().all_effects()).remove(0);
+    let full = draws_with(&scene, |_| (FeatureSet::default().all_effects(), Settings::new())).remove(0);
     assert_eq!(full.uniforms["material.albedo"], [0.5, 1.0, 0.25, 1.0]);
 }
 

@@ -53,6 +53,10 @@ fn share(of: usize, all: usize) -> f64 {
 }
 
 #[test]
+#[expect(
+    clippy::print_stderr,
+    reason = "the shares are figures to watch, with --nocapture"
+)]
 fn what_is_chosen_meets_the_budget_and_nothing_cheaper_does() {
     let seeds: Vec<u64> = (0..scenes()).collect();
     let outcomes: Vec<(String, (bool, bool))> = seeds

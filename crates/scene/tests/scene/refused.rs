@@ -57,10 +57,46 @@ fn pins_that_cannot_be_honoured_are_named() {
             "parallax_slope_ao",
         ),
         (
-            format!("{HEIGHT}{NORMAL}technique = \"cone_step\""),
+            format!("{HEIGHT}{NORMAL}technique = \"cone_map\""),
             "technique",
-            "`cone_step` is not known",
+            "`cone_map` is not known",
             "parallax_offset",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}technique = \"steep_parallax\"\nsteps = 4"),
+            "steps",
+            "technique `steep_parallax` has no steps",
+            "it has `layers`",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}layers = 4"),
+            "layers",
+            "technique `auto` has no layers",
+            "remove it",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}technique = \"relief\"\nlayers = 0"),
+            "layers",
+            "0 is out of range",
+            "from 1 to 4096",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}technique = \"exact\"\nform = \"published\""),
+            "technique",
+            "`exact` is not known",
+            "parallax_offset",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}technique = \"parallax_occlusion\"\nform = \"published\""),
+            "technique",
+            "`parallax_occlusion` has one form",
+            "set form to `hardened`",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}technique = \"relief\"\nshading = \"wrap_lambert\""),
+            "technique",
+            "`relief` does not go with shading `wrap_lambert`",
+            "blinn_phong",
         ),
         (
             "shading = \"emboss\"".to_owned(),

@@ -135,7 +135,10 @@ fn the_wrapped_shading_asks_for_its_own_relief() {
     assert_eq!(state(one, EffectId::AlphaDiscard).0, State::Kept);
     // All effects have the slope's relief on, and it shifts by nothing.
     assert_eq!(plan.everything(0).relief, Relief::ParallaxSlopeAo);
-    let full = draws_with(&scene, |material| plan.everything(material)).remove(0);
+    let full = draws_with(&scene, |material| {
+        (plan.everything(material), plan.settings(material))
+    })
+    .remove(0);
     assert_eq!(full.uniforms["material.relief"][0], 0.0);
 }
 
@@ -215,7 +218,10 @@ fn a_reflection_needs_surroundings_and_something_to_mirror_with() {
         let (kept, why, scene, plan) = decide(sky, &material);
         assert!(kept == State::Dropped && why.contains(reason), "{why}");
         // What everything-on would mirror is black, or is not mirrored at all.
-        let full = draws_with(&scene, |material| plan.everything(material)).remove(0);
+        let full = draws_with(&scene, |material| {
+            (plan.everything(material), plan.settings(material))
+        })
+        .remove(0);
         let dark = full.uniforms["material.specular"][..3] == [0.0; 3]
             || full.textures["environment_map"].levels[0].texels
                 == bossage_scene::Texels::Rgba32Float(vec![[0.0, 0.0, 0.0, 1.0]; 6]);

@@ -4,10 +4,8 @@
 //! passes the true first hit, and a record of either technique says hit exactly where the ray is within `CLOSE_HEIGHT` of the surface.
 
 use bossage_assets::HeightField;
-use bossage_bounds::SUBTEXEL;
 use bossage_reference::cone_step::CLOSE_HEIGHT;
-use bossage_reference::relief_grazing::Surface;
-use bossage_reference::relief_ray::{Ray, Status};
+use bossage_reference::relief_ray::Status;
 use bossage_reference::relief_truth::{first_hit_lifted, height_at};
 use bossage_shaders::{HeightRead, Kernel, ReliefSearch, ReliefTechnique};
 use glam::DVec2;
@@ -16,7 +14,7 @@ use super::beside::Beside;
 use super::hits::Rig;
 use super::maps;
 use super::setting::{self, HIT_FLOATS, Setting};
-use super::truth::entry;
+use super::truth::{entry, height_allowance};
 use super::views::{View, views};
 use crate::bench::Bench;
 use crate::case::{Case, Outcome};
@@ -116,7 +114,7 @@ impl ConeCase {
         if !(uv.is_finite() && (0.0..=1.0).contains(&t)) {
             return Err("no place in the layer".to_owned());
         }
-        let allowance = self.allowance(setting, &entry.ray, ideal);
+        let allowance = height_allowance(&self.field, setting.edge, &entry.ray, ideal);
         let gap = (1.0 - t) - height_at(&self.field, setting.edge, entry.ray.at(t));
         let (met, capped) = (
             *status == entry.status.number() as f32,
@@ -142,16 +140,6 @@ impl ConeCase {
         } else {
             Ok(Verdict::Short)
         }
-    }
-
-    /// What heights may be off by where the ray reads them.
-    fn allowance(&self, setting: &Setting, ray: &Ray, ideal: bool) -> f64 {
-        let surface = Surface::new(&self.field, setting.edge);
-        let furthest = ray.uv_top.abs().max(ray.at(1.0).abs()).max_element();
-        let side = f64::from(self.field.width.max(self.field.height));
-        let rounding = 4.0 * f64::from(f32::EPSILON) * furthest * side;
-        let subtexel = if ideal { 0.0 } else { SUBTEXEL };
-        (rounding + subtexel) * surface.steepest().element_sum() + 8.0 * f64::from(f32::EPSILON)
     }
 }
 

@@ -8,8 +8,7 @@
 use std::collections::BTreeMap;
 
 use bossage_assets::HeightField;
-use bossage_bounds::{Accept, SUBTEXEL, Scalar};
-use bossage_reference::relief_grazing::Surface;
+use bossage_bounds::{Accept, Scalar};
 use bossage_runner::TextureData;
 use bossage_shaders::{HeightRead, Kernel, ReliefSearch, ReliefTechnique};
 use rayon::prelude::*;
@@ -18,7 +17,7 @@ use super::beside::Beside;
 use super::hits::Rig;
 use super::maps;
 use super::setting::{self, HIT_FLOATS, HITS, Setting};
-use super::truth::{Search, entry};
+use super::truth::Search;
 use super::views::{View, views};
 use crate::bench::Bench;
 use crate::bound::Bound;
@@ -138,7 +137,7 @@ impl MarchCase {
             };
             let touchy = views
                 .iter()
-                .filter(|view| search.is_touchy(view, allowance(&search, view, filtering)))
+                .filter(|view| search.is_touchy(view, search.allowance(view, filtering == Filtering::Ideal)))
                 .count();
             let expected = expectations(&search, &views, &bounds(&hits));
             Ok(Part {
@@ -167,22 +166,6 @@ fn expectations(
         })
     };
     views.iter().zip(bounds).map(of).collect()
-}
-
-/// What heights may be off by where a search reads them.
-fn allowance(search: &Search<'_>, view: &View, filtering: Filtering) -> f64 {
-    let surface = Surface::new(search.field, search.setting.edge);
-    let ray = entry(search.setting, view).ray;
-    let furthest = ray.uv_top.abs().max(ray.at(1.0).abs()).max_element();
-    let side = f64::from(search.field.width.max(search.field.height));
-    // A place is made by four roundings of numbers up to the furthest, in texels; a sampler has its bits besides.
-    let rounding = 4.0 * f64::from(f32::EPSILON) * furthest * side;
-    let subtexel = match filtering {
-        Filtering::OfHardware => SUBTEXEL,
-        Filtering::Ideal => 0.0,
-    };
-    // Heights and t are numbers up to 1, of a few roundings each.
-    (rounding + subtexel) * surface.steepest().element_sum() + 8.0 * f64::from(f32::EPSILON)
 }
 
 /// The bounds of each record: of a status those of its number.

@@ -1,6 +1,8 @@
 //! The same searches in f64, from `bossage-reference`.
 
-use bossage_assets::HeightField;
+use bossage_assets::{EdgeMode, HeightField};
+use bossage_bounds::SUBTEXEL;
+use bossage_reference::relief_grazing::Surface;
 use bossage_reference::relief_ray::{Entry, HitRecord, Ray};
 use bossage_reference::relief_truth::{height_at, trace};
 use bossage_reference::steep_parallax::first_below;
@@ -111,6 +113,22 @@ impl Search<'_> {
         }
     }
 
+    /// What heights may be off by where the search reads them. Where a step builds on the one before, it reads at a place that is off
+    /// by the steps before: t + k (1 − t − h(t)) with k ≤ 1 takes over up to 2 + |dh/dt| times what t was off by.
+    pub(super) fn allowance(&self, view: &View, ideal: bool) -> f64 {
+        let ray = entry(self.setting, view).ray;
+        let once = height_allowance(self.field, self.setting.edge, &ray, ideal);
+        match self.technique {
+            ReliefTechnique::ConeStep | ReliefTechnique::RelaxedConeStep => {
+                let sides = DVec2::new(f64::from(self.field.width), f64::from(self.field.height));
+                let steepest = Surface::new(self.field, self.setting.edge).steepest();
+                let slope = (ray.delta * sides).abs().dot(steepest);
+                once * (2.0 + slope).powi(self.setting.steps as i32)
+            }
+            _ => once,
+        }
+    }
+
     /// Whether heights that are off by `allowance` lead the search another way.
     pub(super) fn is_touchy(&self, view: &View, allowance: f64) -> bool {
         let lifted = |lift| Search { lift, ..*self }.decisions(view);
@@ -140,6 +158,19 @@ impl Search<'_> {
 fn exact(view: &View) -> (DVec2, DVec3) {
     let [u, v] = view.uv.map(f64::from);
     (DVec2::new(u, v), DVec3::from_array(view.dir_ts.map(f64::from)))
+}
+
+/// What heights may be off by where a ray reads them: by the rounding of its places, and by what a sampler keeps of the weights
+/// unless it is ideal.
+pub(super) fn height_allowance(field: &HeightField, edge: EdgeMode, ray: &Ray, ideal: bool) -> f64 {
+    let furthest = ray.uv_top.abs().max(ray.at(1.0).abs()).max_element();
+    let side = f64::from(field.width.max(field.height));
+    // A place is made by four roundings of numbers up to the furthest, in texels.
+    let rounding = 4.0 * f64::from(f32::EPSILON) * furthest * side;
+    let subtexel = if ideal { 0.0 } else { SUBTEXEL };
+    let steepest = Surface::new(field, edge).steepest().element_sum();
+    // Heights and t are numbers up to 1, of a few roundings each.
+    (rounding + subtexel) * steepest + 8.0 * f64::from(f32::EPSILON)
 }
 
 /// The ray of a view.

@@ -126,7 +126,10 @@ impl Permutations {
                 expectations: &self.expectations,
             };
             for stage in passes(&draw) {
-                let (part, pixels) = alone(&object.render(&draw, stage)?, demanding(&draw));
+                let drawn = object
+                    .render(&draw, stage)
+                    .map_err(|error| format!("{}: {error}", features.module_name(stage)))?;
+                let (part, pixels) = alone(&drawn, demanding(&draw));
                 if part.refused > 0 {
                     refused.push(features.module_name(stage));
                 }

@@ -12,9 +12,10 @@ use std::sync::Arc;
 use bossage_assets::normal_mips::NormalMips;
 use bossage_assets::normalisation_cube_map::{Depth, NormalisationCubeMap};
 use bossage_assets::{ColorMap, CubeMap, HeightField, Mesh, NormalCodec, NormalMap};
+use bossage_reference::relief_search::Search;
 use bossage_scene::{
     AlphaMode, Draw, Elevation, Environment, HeightSource, Level, Material, NormalSource, Normaliser, Scene,
-    TechniquePin, Texels, Texture,
+    Technique, TechniquePin, Texels, Texture,
 };
 use bossage_shaders::{
     Albedo, Alpha, FeatureSet, Lights, Normaliser as Normalises, Relief, Shading, Transform,
@@ -102,7 +103,9 @@ scale = [-0.9, 1.2, 1.4]
 /// The sheet, drawn with these features.
 pub(super) fn draw(features: &FeatureSet) -> Result<Draw, String> {
     let scene = scene(features)?;
-    let mut draw = bossage_scene::draws_with(&scene, |_| *features)
+    let pinned = |material: usize| Technique::pinned(&scene.materials[material]);
+    let settings = |material| pinned(material).map(Technique::settings).unwrap_or_default();
+    let mut draw = bossage_scene::draws_with(&scene, |material| (*features, settings(material)))
         .pop()
         .ok_or("nothing is drawn")?;
     draw.mesh = Arc::new(bent(&draw.mesh, features.mirrored_uv));
@@ -169,6 +172,30 @@ fn scene(features: &FeatureSet) -> Result<Scene, String> {
     Ok(scene)
 }
 
+/// Few steps: each may be undecided, and then both ways are gone.
+fn search(relief: Relief) -> Option<Search> {
+    match relief {
+        Relief::ParallaxIterative => Some(Search::ParallaxIterative { iterations: 2 }),
+        Relief::SteepParallax => Some(Search::SteepParallax { layers: 6 }),
+        Relief::ParallaxOcclusion => Some(Search::ParallaxOcclusion { layers: 6 }),
+        Relief::Relief => Some(Search::Relief {
+            layers: 5,
+            refinements: 2,
+        }),
+        Relief::ConeStep => Some(Search::ConeStep { steps: 4 }),
+        Relief::RelaxedConeStep => Some(Search::RelaxedConeStep {
+            steps: 3,
+            refinements: 2,
+        }),
+        Relief::None
+        | Relief::ParallaxOffset
+        | Relief::ParallaxOffsetLimited
+        | Relief::ParallaxSlopeAo
+        | Relief::ParallaxSlopeAoDirected
+        | Relief::Displacement => None,
+    }
+}
+
 /// Gives the material all that its features read.
 fn furnish(material: &mut Material, features: &FeatureSet) -> Result<(), String> {
     let wrap = features.shading == Shading::WrapLambert;
@@ -199,7 +226,14 @@ fn furnish(material: &mut Material, features: &FeatureSet) -> Result<(), String>
         Relief::ParallaxSlopeAo => TechniquePin::ParallaxSlopeAo,
         Relief::ParallaxSlopeAoDirected => TechniquePin::ParallaxSlopeAoDirected,
         Relief::Displacement => TechniquePin::Displacement,
+        Relief::ParallaxIterative => TechniquePin::ParallaxIterative,
+        Relief::SteepParallax => TechniquePin::SteepParallax,
+        Relief::ParallaxOcclusion => TechniquePin::ParallaxOcclusion,
+        Relief::Relief => TechniquePin::Relief,
+        Relief::ConeStep => TechniquePin::ConeStep,
+        Relief::RelaxedConeStep => TechniquePin::RelaxedConeStep,
     };
+    material.search = search(features.relief);
     material.shading = features.shading;
     material.form = features.form;
     material.occlusion = 2.5;

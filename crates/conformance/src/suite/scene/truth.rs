@@ -2,10 +2,13 @@
 //!
 //! Values are read by their names in the shader interface; which of them count follows from the feature set.
 
+mod search;
+
 use bossage_reference::cube::Seams;
 use bossage_reference::dot3_single_pass::Normaliser;
 use bossage_reference::environment_bump::Environment;
 use bossage_reference::normalisation_cube_map::{Depth, Map};
+use bossage_reference::relief_ray::Layer;
 use bossage_reference::surface::{Light, Material, Pass, Relief, Shading, Viewer};
 use bossage_reference::{Form as TruthForm, texture::Texture};
 use bossage_scene::{Draw, Texels, TextureShape};
@@ -68,8 +71,9 @@ pub(super) fn material(draw: &Draw, stage: Stage) -> Material {
         normal_decode: DVec2::from_array(uniform(draw, "material.normal_decode").map(f64::from)),
         height_map: map(
             "height_map",
-            features.relief.shifts() || features.shading == Kind::Emboss,
+            features.relief.reads_heights() || features.shading == Kind::Emboss,
         ),
+        search_maps: search::maps(draw, &features),
         relief: relief(draw, &features),
         ambient: vector(uniform(draw, "material.ambient")),
         specular: features.specular.then(specular),
@@ -92,9 +96,24 @@ fn relief(draw: &Draw, features: &FeatureSet) -> Relief {
         v_factor,
         occlusion,
     };
+    if let Some(search) = search::of(draw, features) {
+        let layer = Layer {
+            scale,
+            bias,
+            v_factor,
+        };
+        return Relief::Search { search, layer };
+    }
     match features.relief {
-        // Displaced vertices show in the interpolants.
-        Feature::None | Feature::Displacement => Relief::None,
+        // Displaced vertices show in the interpolants, and searches are above.
+        Feature::None
+        | Feature::Displacement
+        | Feature::ParallaxIterative
+        | Feature::SteepParallax
+        | Feature::ParallaxOcclusion
+        | Feature::Relief
+        | Feature::ConeStep
+        | Feature::RelaxedConeStep => Relief::None,
         Feature::ParallaxOffset => Relief::Offset {
             form,
             scale,

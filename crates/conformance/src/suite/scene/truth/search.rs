@@ -1,0 +1,67 @@
+//! A draw's search along the view ray in the words of the f64 surface: which technique with which settings, and the maps that it reads.
+
+use bossage_assets::HeightField;
+use bossage_assets::cone_map::ConeMap;
+use bossage_reference::relief_search::Search;
+use bossage_reference::surface::SearchMaps;
+use bossage_reference::texture::Texture;
+use bossage_scene::Draw;
+use bossage_shaders::{FeatureSet, Relief};
+
+use super::{plane, uniform};
+
+/// The search, with the settings of the draw's uniform; none where the shader does not search.
+pub(super) fn of(draw: &Draw, features: &FeatureSet) -> Option<Search> {
+    let [steps, refinements, ..] = uniform::<4>(draw, "material.search").map(|number| number as u32);
+    match features.relief {
+        Relief::ParallaxIterative => Some(Search::ParallaxIterative { iterations: steps }),
+        Relief::SteepParallax => Some(Search::SteepParallax { layers: steps }),
+        Relief::ParallaxOcclusion => Some(Search::ParallaxOcclusion { layers: steps }),
+        Relief::Relief => Some(Search::Relief {
+            layers: steps,
+            refinements,
+        }),
+        Relief::ConeStep => Some(Search::ConeStep { steps }),
+        Relief::RelaxedConeStep => Some(Search::RelaxedConeStep { steps, refinements }),
+        Relief::None
+        | Relief::ParallaxOffset
+        | Relief::ParallaxOffsetLimited
+        | Relief::ParallaxSlopeAo
+        | Relief::ParallaxSlopeAoDirected
+        | Relief::Displacement => None,
+    }
+}
+
+/// The maps as the shader reads them: heights from their own map or from the red of the baked one, the rest from its green.
+pub(super) fn maps(draw: &Draw, features: &FeatureSet) -> Option<SearchMaps> {
+    if !features.relief.is_search() {
+        return None;
+    }
+    let name = if features.relief.reads_heights() {
+        "height_map"
+    } else {
+        "relief_map"
+    };
+    let baked = plane(draw, "relief_map").filter(|_| features.relief.reads_relief_map());
+    Some(SearchMaps {
+        heights: heights(&plane(draw, name)?),
+        cones: baked.as_ref().map(cones),
+        normal_z: baked,
+    })
+}
+
+fn heights(map: &Texture) -> HeightField {
+    HeightField {
+        width: map.width,
+        height: map.height,
+        texels: map.texels.iter().map(|texel| texel.x as f32).collect(),
+    }
+}
+
+fn cones(map: &Texture) -> ConeMap {
+    ConeMap {
+        width: map.width,
+        height: map.height,
+        ratios: map.texels.iter().map(|texel| texel.y as f32).collect(),
+    }
+}
