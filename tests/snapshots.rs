@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 
 use bossage_shaders::{Albedo, Alpha, Transform};
 use bossage_shaders::{
-    AssembledShader, FeatureSet, Form, HeightRead, Kernel, Library, Lights, NormalSource, PROBES, Probe,
-    Relief, ReliefSearch, ReliefTechnique, Stage, TECHNIQUES, Technique,
+    AssembledShader, FeatureSet, Form, HeightRead, Kernel, Library, LightTechnique, Lights, NormalSource,
+    PROBES, Probe, Relief, ReliefLight, ReliefSearch, ReliefTechnique, Stage, TECHNIQUES, Technique,
 };
 use bossage_translate::emit::spirv_listing;
 use bossage_translate::{Contents, Cost, EmitOptions, Emitted, Shader, Source, Target, emit, manifest};
@@ -56,12 +56,16 @@ fn readable(emitted: &Emitted) -> String {
 /// The module that stands for a technique: that of a search for the hit, where it is one whose function takes textures; else the
 /// probe of its main function.
 fn main_module(library: &Library, technique: &Technique) -> AssembledShader {
-    let search = ReliefTechnique::find(technique.id).filter(|_| Probe::find(technique.id).is_none());
-    let assembled = match search {
-        Some(technique) => library.assemble_kernel(Kernel::ReliefHits(ReliefSearch {
-            technique,
-            heights: HeightRead::Filtered,
-        })),
+    let heights = HeightRead::Filtered;
+    let search = ReliefTechnique::find(technique.id)
+        .map(|technique| Kernel::ReliefHits(ReliefSearch { technique, heights }));
+    let light = LightTechnique::ALL
+        .into_iter()
+        .find(|light| light.id() == technique.id);
+    let light = light.map(|technique| Kernel::ReliefLight(ReliefLight { technique, heights }));
+    let kernel = search.or(light).filter(|_| Probe::find(technique.id).is_none());
+    let assembled = match kernel {
+        Some(kernel) => library.assemble_kernel(kernel),
         None => library.assemble_probe(main_probe(technique).id),
     };
     assembled.expect("the library assembles")

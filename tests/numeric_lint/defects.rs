@@ -419,6 +419,8 @@ pub(crate) const FORMULAS: &[(&str, &str, &str)] = &[
         "short_normal",
         "1 − (n·N)² for |n| < 1, evaluated well",
     ),
+    ("soft_shadow", "bright_ground", "0.6 · (1 + 0.88) + 0.4"),
+    ("soft_shadow", "darker_than_black", "0.6 · (1 − 9.36) + 0.4"),
     (
         "wrap_lambert",
         "negative_ambient",

@@ -23,8 +23,11 @@ const TAKES_ANY_LENGTH: &[&str] = &[
     "codec_octahedral_encode_published",
 ];
 
-/// The range of a field, for its floats from `at` on.
-fn range(field: &Field, at: usize, reach: &str) -> Vec<String> {
+/// Functions whose length is that of a tile in the scene, whose products must stay finite.
+const MEASURES_TILES: &[&str] = &["relief_place"];
+
+/// The range of a field, for its floats from `at` on: vectors reach as far as `reach`, lengths as far as `longest`.
+fn range(field: &Field, at: usize, reach: &str, longest: &str) -> Vec<String> {
     let n = field.shape.floats();
     let key = |from: usize, to: usize| format!("\"inputs[{from}..{to}]\"");
     let all = key(at, at + n);
@@ -65,7 +68,7 @@ fn range(field: &Field, at: usize, reach: &str) -> Vec<String> {
         Role::Texel => one("0", "16383"),
         Role::Face => vec![format!("{all} = {{ one_of = [0, 1, 2, 3, 4, 5] }}")],
         Role::Gain => one("-64", "64"),
-        Role::Length => one("1.1754944e-38", "8.5e37"),
+        Role::Length => one("1.1754944e-38", longest),
         Role::SnormOne => vec![format!("{all} = {{ one_of = [127, 32767] }}")],
         Role::SnormCode => one("-32768", "32767"),
         Role::UnormOne => vec![format!("{all} = {{ one_of = [255, 65535] }}")],
@@ -82,13 +85,18 @@ pub(crate) fn sidecar(probe: &Probe) -> String {
     } else {
         FINITE_PRODUCTS
     };
+    let longest = if MEASURES_TILES.contains(&probe.function()) {
+        FINITE_PRODUCTS
+    } else {
+        ANY_LENGTH
+    };
     let mut text = format!(
         "schema = 1\n[ranges]\ninputs = {{ size = {} }}\noutputs = {{ size = {} }}\n",
         probe.input_floats, probe.output_floats
     );
     let mut at = 0;
     for field in probe.inputs {
-        for line in range(field, at, reach) {
+        for line in range(field, at, reach, longest) {
             text.push_str(&line);
             text.push('\n');
         }

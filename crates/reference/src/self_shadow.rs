@@ -1,6 +1,7 @@
 //! `self_shadow`: whether the relief stands between a place on it and the light.
 //!
-//! From the hit record of the view: the place is at depth t, height 1 − t. The light's ray leaves it upward,
+//! From the hit record of the view: the place is at depth t, height 1 − t; where a search stopped over the surface or under it,
+//! [`on_surface`] is the record to start from. The light's ray leaves it upward,
 //! uv(s) = uv + s · rise with rise = scale · L.xy / L.z per axis, at the height 1 − t + s, and leaves the layer at s = t. Published as
 //! the relief's own march turned round (Policarpo 2005, Tatarchuk 2006): so many samples, any of them under the surface is shadow.
 //! [`obstruction`] is the truth that this samples: how far the surface stands over the ray at most, exactly.
@@ -18,6 +19,15 @@ use crate::relief_truth::cells::Walk;
 
 /// Heights by which a surface must stand over the light's ray to shade: half a step of an 8-bit map.
 pub const BIAS_HEIGHT: f64 = 0.5 / 255.0;
+
+/// The record of the surface itself at a record's uv, where it has this height.
+#[must_use]
+pub fn on_surface(hit: &HitRecord, height: f64) -> HitRecord {
+    HitRecord {
+        t: 1.0 - height,
+        ..*hit
+    }
+}
 
 /// The ray from a place toward the light: from s = 0 at the place, one thickness of the layer a unit of s. `None` where the light is
 /// not above the horizon.

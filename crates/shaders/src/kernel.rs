@@ -1,5 +1,6 @@
 //! The compute kernels of the library: where each stands, and what its entry point is called.
 
+use crate::relief_light::ReliefLight;
 use crate::relief_search::ReliefSearch;
 
 /// A compute kernel of the library. Bindings and domain are in the doc of its file.
@@ -35,6 +36,8 @@ pub enum Kernel {
     NormalisationCubeMapLookupInFace,
     /// One invocation a view ray: where it meets the relief.
     ReliefHits(ReliefSearch),
+    /// One invocation a hit record: how much of a light is seen from there.
+    ReliefLight(ReliefLight),
 }
 
 impl Kernel {
@@ -61,6 +64,7 @@ impl Kernel {
         Self::ALL
             .into_iter()
             .chain(ReliefSearch::all().map(Kernel::ReliefHits))
+            .chain(ReliefLight::all().map(Kernel::ReliefLight))
     }
 
     /// The assembled module's name: the entry point's, and behind it what distinguishes modules that share one.
@@ -73,6 +77,9 @@ impl Kernel {
                 search.technique.id(),
                 search.heights.id()
             ),
+            Kernel::ReliefLight(light) => {
+                format!("{}-{}-{}", self.entry(), light.technique.id(), light.heights.id())
+            }
             other => other.entry().to_owned(),
         }
     }
@@ -81,6 +88,7 @@ impl Kernel {
     pub(crate) fn features(self) -> Vec<&'static str> {
         match self {
             Kernel::ReliefHits(search) => search.features(),
+            Kernel::ReliefLight(light) => light.features(),
             _ => Vec::new(),
         }
     }
@@ -104,6 +112,7 @@ impl Kernel {
             Kernel::NormalisationCubeMapLookup => "normalisation_cube_map_lookup",
             Kernel::NormalisationCubeMapLookupInFace => "normalisation_cube_map_lookup_in_face",
             Kernel::ReliefHits(_) => "relief_hits",
+            Kernel::ReliefLight(_) => "relief_light",
         }
     }
 
@@ -125,7 +134,8 @@ impl Kernel {
             | Kernel::NormalMipsEncode
             | Kernel::NormalisationCubeMapLookup
             | Kernel::NormalisationCubeMapLookupInFace
-            | Kernel::ReliefHits(_) => [64, 1, 1],
+            | Kernel::ReliefHits(_)
+            | Kernel::ReliefLight(_) => [64, 1, 1],
         }
     }
 
@@ -149,6 +159,7 @@ impl Kernel {
                 "entry/normalisation_cube_map_lookup.wesl"
             }
             Kernel::ReliefHits(_) => "entry/relief_hits.wesl",
+            Kernel::ReliefLight(_) => "entry/relief_light.wesl",
         }
     }
 }

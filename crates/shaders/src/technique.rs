@@ -213,6 +213,12 @@ pub const TECHNIQUES: &[Technique] = &[
         source: SLOPE_AO,
     },
     Technique {
+        id: "pixel_depth",
+        files: &["techniques/pixel_depth.wesl"],
+        forms: HARDENED,
+        source: "the displaced place through the vertex transform; no single source",
+    },
+    Technique {
         id: "relaxed_cone_step",
         files: &["techniques/relaxed_cone_step.wesl", "entry/relief_hits.wesl"],
         forms: HARDENED,
@@ -223,6 +229,18 @@ pub const TECHNIQUES: &[Technique] = &[
         files: &["techniques/relief.wesl", "entry/relief_hits.wesl"],
         forms: HARDENED,
         source: "Policarpo et al., Real-Time Relief Mapping on Arbitrary Polygonal Surfaces (2005)",
+    },
+    Technique {
+        id: "self_shadow",
+        files: &["techniques/self_shadow.wesl", "entry/relief_light.wesl"],
+        forms: HARDENED,
+        source: "Policarpo et al., Real-Time Relief Mapping on Arbitrary Polygonal Surfaces (2005)",
+    },
+    Technique {
+        id: "soft_shadow",
+        files: &["techniques/soft_shadow.wesl", "entry/relief_light.wesl"],
+        forms: BOTH,
+        source: "Tatarchuk, Dynamic Parallax Occlusion Mapping with Approximate Soft Shadows (2006)",
     },
     Technique {
         id: "steep_parallax",

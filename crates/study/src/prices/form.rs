@@ -35,6 +35,11 @@ const ALONE: &[(&str, &str)] = &[
         "height_to_normal_forward_published",
         "it takes bytes, and other axes",
     ),
+    ("soft_shadow_light_published", "the hardened form takes a horizon"),
+    (
+        "soft_shadow_sample_published",
+        "the hardened form weighs no samples",
+    ),
     ("wrap_lambert_published", "it takes the light's alpha as well"),
 ];
 

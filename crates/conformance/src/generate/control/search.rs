@@ -55,6 +55,54 @@ pub(super) const ROWS: &[Known] = &[
     known("toward_surface", &[0.25, 0.0], &[-0.25]),
     known("iterative_step", &[0.75, 0.25, 0.5], &[0.25]),
     known("iterative_step", &[-0.25, 0.25, 0.5], &[-0.25]),
+    // L at 45° over a layer of 1/2; a light in the surface counts as one at 0.05.
+    known(
+        "light_rise",
+        &[HALF_ROOT as f32, 0.0, HALF_ROOT as f32, 0.5, 0.0, 1.0],
+        &[0.5, 0.0],
+    ),
+    known("light_rise", &[0.0, 1.0, 0.0, 0.5, 0.0, 2.0], &[0.0, 20.0]),
+    known("seen_share", &[1.0, 0.25], &[0.5]),
+    known("seen_share", &[1.125, 0.25], &[0.25]),
+    known("seen_share", &[-1.0, 0.25], &[1.0]),
+    known("seen_share", &[9.0, 0.25], &[0.0]),
+    // Level ground is brightened: −0.88 of the last sample.
+    known(
+        "soft_shadow_sample_published",
+        &[0.5, 0.5, 0.875, 1.0, 1.0],
+        &[-0.875],
+    ),
+    // 1.875 · 0.6 + 0.4 with the listing's numbers, which are those of f32; and its 0.4 alone.
+    known("soft_shadow_light_published", &[-0.875], &[1.525_000_050_663_948]),
+    known("soft_shadow_light_published", &[1.0], &[0.400_000_005_960_464_5]),
+    // Half-way down a layer of 1/4 that hangs below the polygon, on tiles two units wide, seen at (0.6, 0, 0.8).
+    known(
+        "relief_place",
+        &[1.0, 2.0, 0.0, 0.6, 0.0, 0.8, 0.8, 0.5, 0.0, 0.25, -0.25, 1.0, 2.0],
+        &[0.8125, 2.0, -0.25],
+    ),
+    // From the side: as for V.z = 0.05.
+    known(
+        "relief_place",
+        &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.5, 1.0, 0.25, -0.25, 1.0, 1.0],
+        &[-2.5, 0.0, 0.0],
+    ),
+    known(
+        "relief_place",
+        &[1.0, 2.0, 3.0, 0.6, 0.0, 0.8, 0.8, 0.5, 3.0, 0.25, -0.25, 1.0, 2.0],
+        &[1.0, 2.0, 3.0],
+    ),
+    // z = 1/2 − z, w = 2 − z at z = 1/4.
+    known(
+        "pixel_depth",
+        &[5.0, 6.0, 0.25, 0.0, 0.0, -1.0, 0.5, 0.0, 0.0, -1.0, 2.0],
+        &[1.0 / 7.0],
+    ),
+    known(
+        "pixel_depth",
+        &[5.0, 6.0, 0.25, 0.0, 0.0, -1.0, 0.5, 0.0, 0.0, 1.0, -0.25],
+        &[1.0],
+    ),
     known("ray_grid", &[4.0, -0.5], &[0.25, -2.0, 1.0, 0.0, 1.0, -1.0]),
     known("ray_grid", &[0.0, 8.0], &[4.0, 0.125, 2.0, 1.0, 0.0, 1.0]),
     // The least travel that is one, and the next below.

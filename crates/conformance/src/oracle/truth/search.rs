@@ -1,11 +1,11 @@
 //! The parts of searches along a view ray.
 
-use bossage_reference::cone_step;
-use bossage_reference::relief_ray::{Entry, Layer, Ray, step_count};
+use bossage_reference::relief_ray::{Entry, HitRecord, Layer, MIN_VIEW_Z, Ray, Status, step_count};
 use bossage_reference::vector::SMALLEST_NORMAL_F32;
-use glam::DVec2;
+use bossage_reference::{cone_step, pixel_depth, soft_shadow};
+use glam::{DMat4, DVec2, DVec4};
 
-use super::{A, Rows, v2, v3};
+use super::{A, Rows, out2, out3, v2, v3, v4};
 
 pub(super) const ROWS: Rows = &[
     ("relief_ray", relief_ray),
@@ -50,6 +50,42 @@ pub(super) const ROWS: Rows = &[
     ("iterative_step", |a| {
         let [surface, elevation, normal_z] = a.array();
         vec![(surface - elevation) * normal_z]
+    }),
+    ("light_rise", |a| {
+        let direction = v3(a);
+        let [scale, _, v_factor] = a.array();
+        let across = DVec2::new(direction.x, v_factor * direction.y);
+        out2(scale * across / direction.z.max(MIN_VIEW_Z))
+    }),
+    ("seen_share", |a| {
+        let (horizon, half_width) = (a.scalar(), a.scalar().clamp(2f64.powi(-20), 2f64.powi(20)));
+        vec![soft_shadow::seen(horizon, half_width)]
+    }),
+    ("soft_shadow_sample_published", |a| {
+        let [height, ground, share, weight, softening] = a.array();
+        vec![soft_shadow::published_sample(
+            height,
+            ground,
+            (share, weight),
+            softening,
+        )]
+    }),
+    ("soft_shadow_light_published", |a| {
+        vec![soft_shadow::published_light(a.scalar())]
+    }),
+    ("relief_place", relief_place),
+    ("pixel_depth", |a| {
+        let (place, z, w) = (v3(a), v4(a), v4(a));
+        // Behind the eye, or on its plane.
+        let depth = if w.dot(place.extend(1.0)) < 2f64.powi(-100) {
+            1.0
+        } else {
+            pixel_depth::depth(
+                place,
+                &DMat4::from_cols(DVec4::ZERO, DVec4::ZERO, z, w).transpose(),
+            )
+        };
+        vec![depth]
     }),
     ("ray_grid", |a| {
         let axes: [[f64; 3]; 2] = a.array().map(grid);
@@ -100,6 +136,28 @@ fn first_root(c: f64, b: f64, a: f64, length: f64) -> Option<f64> {
         (discriminant.sqrt() - b) / (2.0 * a)
     };
     (discriminant >= 0.0 && s > 0.0 && s <= length).then_some(s)
+}
+
+fn relief_place(a: A<'_, '_>) -> Vec<f64> {
+    let (position, view) = (v3(a), v3(a));
+    let [view_z_ts, t, status, scale, bias, v_factor, tile_width] = a.array();
+    let hit = HitRecord {
+        uv: DVec2::ZERO,
+        t,
+        status: if status == 3.0 {
+            Status::NonFinite
+        } else {
+            Status::Hit
+        },
+    };
+    let layer = Layer {
+        scale,
+        bias,
+        v_factor,
+    };
+    out3(pixel_depth::place(
+        position, view, view_z_ts, &hit, &layer, tile_width,
+    ))
 }
 
 fn relief_ray(a: A<'_, '_>) -> Vec<f64> {

@@ -14,6 +14,13 @@ pub(super) fn not_negative(out: &[f32]) -> Result<(), String> {
     ensure(out.iter().all(|x| *x >= 0.0), || format!("{out:?}"))
 }
 
+/// A part of the light: neither less than none nor more than all.
+pub(super) fn a_share(out: &[f32]) -> Result<(), String> {
+    ensure(out.iter().all(|x| (0.0..=1.0).contains(x)), || {
+        format!("a share of {out:?}")
+    })
+}
+
 /// Level ground stays where it is.
 pub(super) fn level(out: &[f32]) -> Result<(), String> {
     ensure(out.iter().all(|x| x.abs() < 1e-6), || {

@@ -1,6 +1,6 @@
 //! Defects of height fields, their normals and levels, and of relief.
 
-use super::property::{ensure, level, not_negative, unit, within_a_tile};
+use super::property::{a_share, ensure, level, not_negative, unit, within_a_tile};
 use super::{Defect, Evidence};
 
 pub(super) const ROWS: &[Defect] = &[
@@ -147,5 +147,29 @@ pub(super) const ROWS: &[Defect] = &[
         evidence: Evidence::Output,
         about: "the occlusion falls to −0.6",
         cure: "clamped to [0, 1]",
+    },
+    Defect {
+        name: "bright_ground",
+        published: "soft_shadow_light_published",
+        hardened: Some("seen_share"),
+        // Level ground: the greatest of the seven is −0.88 · 1. Its horizon is 0.
+        witness: &[-0.88],
+        cured_witness: Some(&[0.0, 0.25]),
+        property: a_share,
+        evidence: Evidence::Output,
+        about: "a shadow below 0 is not cut: level ground is brightened to 1.53",
+        cure: "the share of the light over the horizon, at most 1",
+    },
+    Defect {
+        name: "darker_than_black",
+        published: "soft_shadow_light_published",
+        hardened: Some("seen_share"),
+        // A wall as high as the layer at the first sample: (1 − 0.22) · 12. Its horizon is 1 / 0.22.
+        witness: &[9.36],
+        cured_witness: Some(&[4.545_454_5, 0.25]),
+        property: a_share,
+        evidence: Evidence::Output,
+        about: "a weighted shadow goes beyond 1: the foot of a wall is lit by −4.6",
+        cure: "the share of the light over the horizon, at least 0",
     },
 ];

@@ -28,7 +28,7 @@ pub(super) struct Setting {
 
 /// Every edge mode; layers below, through and above the polygon; tiles wide, square and high; few steps and more, none, and a
 /// number whose reciprocal is not exact.
-const SETTINGS: [Setting; 4] = [
+pub(super) const SETTINGS: [Setting; 4] = [
     Setting {
         edge: EdgeMode::Wrap,
         scale: 0.0625,
@@ -95,12 +95,16 @@ impl Setting {
         [&view.uv[..], &view.dir_ts[..], &layer[..]].concat()
     }
 
-    fn uniforms(&self) -> [(&'static str, f32); 7] {
-        let edge = match self.edge {
+    /// The edge mode as shaders have it.
+    pub(super) fn edge_number(&self) -> f32 {
+        match self.edge {
             EdgeMode::Wrap => 0.0,
             EdgeMode::Mirror => 1.0,
             EdgeMode::Clamp => 2.0,
-        };
+        }
+    }
+
+    fn uniforms(&self) -> [(&'static str, f32); 7] {
         [
             ("search.scale", self.scale),
             ("search.bias", self.bias),
@@ -108,11 +112,11 @@ impl Setting {
             ("search.level", 0.0),
             ("search.steps", self.steps as f32),
             ("search.refinements", self.refinements as f32),
-            ("search.edge_mode", edge),
+            ("search.edge_mode", self.edge_number()),
         ]
     }
 
-    fn sampler(&self) -> SamplerSettings {
+    pub(super) fn sampler(&self) -> SamplerSettings {
         SamplerSettings {
             address: match self.edge {
                 EdgeMode::Wrap => AddressMode::Wrap,

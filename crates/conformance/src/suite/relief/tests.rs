@@ -1,10 +1,11 @@
 //! Shaders that are broken on purpose are refused: on the evaluator, without an adapter.
 
 use bossage_embedded::Embedded;
-use bossage_shaders::{HeightRead, Library, ReliefSearch, ReliefTechnique};
+use bossage_shaders::{HeightRead, Library, LightTechnique, ReliefLight, ReliefSearch, ReliefTechnique};
 
 use super::cones::ConeCase;
 use super::exact::ExactCase;
+use super::light::LightCase;
 use super::maps;
 use super::marching::MarchCase;
 use crate::bench::Bench;
@@ -154,6 +155,83 @@ fn the_library_as_it_is_keeps_its_promises() {
     for technique in ReliefTechnique::ALL {
         let (verdict, reason) = verdict(&library, technique, "noise");
         assert_eq!(verdict, Verdict::Pass, "{technique:?}: {reason}");
+    }
+}
+
+/// The same for shadows.
+const DARK_FAULTS: &[(&str, &str, &str, LightTechnique)] = &[
+    // The first sample is left out.
+    (
+        "techniques/self_shadow.wesl",
+        "var sample = 1u; over",
+        "var sample = 2u; over",
+        LightTechnique::SelfShadow,
+    ),
+    // The ray goes down.
+    (
+        "techniques/self_shadow.wesl",
+        "(ground + s)",
+        "(ground - s)",
+        LightTechnique::SelfShadow,
+    ),
+    // From where the search stopped instead of from the surface.
+    (
+        "techniques/self_shadow.wesl",
+        "height_at(height_map, height_sampler, read, hit.uv);",
+        "1.0 - hit.t;",
+        LightTechnique::SelfShadow,
+    ),
+    (
+        "techniques/soft_shadow.wesl",
+        "let ground = height_at(height_map, height_sampler, read, hit.uv);",
+        "let ground = 1.0 - hit.t;",
+        LightTechnique::SoftShadow,
+    ),
+    // A light below the horizon.
+    (
+        "techniques/self_shadow.wesl",
+        "light_dir_ts.z <= 0.0",
+        "light_dir_ts.z <= -2.0",
+        LightTechnique::SelfShadow,
+    ),
+    // Heights over the floor instead of over the place.
+    (
+        "techniques/soft_shadow.wesl",
+        "(height - ground) / s",
+        "height / s",
+        LightTechnique::SoftShadow,
+    ),
+    (
+        "techniques/soft_shadow.wesl",
+        "(2.0 * w)",
+        "w",
+        LightTechnique::SoftShadow,
+    ),
+];
+
+fn light_verdict(library: &Library, technique: LightTechnique) -> (Verdict, String) {
+    let heights = HeightRead::FourLoads;
+    let field = maps::all()
+        .into_iter()
+        .find(|(name, _)| *name == "noise")
+        .unwrap()
+        .1;
+    let case = LightCase::new(ReliefLight { technique, heights }, "noise", field);
+    let machine = Embedded::new();
+    let outcome = case.run(&Bench::new(&machine, Route::Embedded, library));
+    (outcome.verdict, outcome.reason.unwrap_or_default())
+}
+
+#[test]
+fn shadows_keep_their_promises_and_broken_ones_are_refused() {
+    let library = Library::embedded().unwrap();
+    for technique in LightTechnique::ALL {
+        let (verdict, reason) = light_verdict(&library, technique);
+        assert_eq!(verdict, Verdict::Pass, "{technique:?}: {reason}");
+    }
+    for (file, was, is, technique) in DARK_FAULTS {
+        let (verdict, reason) = light_verdict(&broken(file, was, is), *technique);
+        assert_eq!(verdict, Verdict::Fail, "{file}: `{is}` passes: {reason}");
     }
 }
 
