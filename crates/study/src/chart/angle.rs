@@ -9,7 +9,7 @@ use super::{Kind, Plan, file_part};
 use crate::record::{Point, Study};
 
 const MARGINS: Margins = Margins {
-    left: 82,
+    left: 92,
     right: 260,
     top: 44,
     bottom: 58,
@@ -20,7 +20,8 @@ const LEGEND: i32 = 655;
 /// One chart a map that was seen at more than one angle.
 pub(super) fn plans<'a>(study: &'a Study, looks: &'a Looks) -> Vec<Plan<'a>> {
     let mut maps: BTreeMap<&str, Vec<&Point>> = BTreeMap::new();
-    for point in &study.points {
+    // A scene's camera sees a range of angles, which has no place on this axis.
+    for point in study.points.iter().filter(|point| point.scene.is_none()) {
         maps.entry(&point.map).or_default().push(point);
     }
     maps.into_iter()
@@ -141,8 +142,8 @@ fn draw(area: &Area<'_>, lines: &[Line<'_>], looks: &Looks) -> Drawn {
         }
         let row = 62 + 36 * row as i32;
         marker(area, (LEGEND, row), look)?;
-        words_at(area, line.technique, (LEGEND + 16, row), 16.0)?;
-        words_at(area, &line.settings, (LEGEND + 16, row + 15), 13.0)?;
+        words_at(area, line.technique, (LEGEND + 16, row), 18.0)?;
+        words_at(area, &line.settings, (LEGEND + 16, row + 16), 15.0)?;
     }
     Ok(())
 }

@@ -11,10 +11,10 @@ use crate::record::{Point, Study};
 
 const SIZE: (u32, u32) = (900, 520);
 /// The column of the legend.
-const LEGEND: i32 = 690;
+const LEGEND: i32 = 672;
 const MARGINS: Margins = Margins {
-    left: 82,
-    right: 225,
+    left: 92,
+    right: 243,
     top: 44,
     bottom: 58,
 };
@@ -80,7 +80,7 @@ fn plan<'a>(
     Some(Plan {
         kind,
         name: format!("{word}-{}-{view_deg}", file_part(map)),
-        title: format!("{map} at {view_deg}°: error against {word}"),
+        title: format!("{map} at {}°: error against {word}", short(view_deg)),
         alt: alt(word, map, view_deg, costed.len(), &front),
         subject: map.to_owned(),
         size: SIZE,
@@ -114,7 +114,8 @@ fn alt(word: &str, map: &str, view_deg: f64, count: usize, front: &[(&Point, Cos
         })
         .collect();
     format!(
-        "Error against {word} on {map}, seen {view_deg}° from the normal; {count} points. On the front, cheapest first: {}.",
+        "Error against {word} on {map}, seen {}° from the normal. Points: {count}. On the front, cheapest first: {}.",
+        short(view_deg),
         steps.join("; ")
     )
 }
@@ -176,7 +177,7 @@ fn legend(area: &Area<'_>, series: &[(&str, super::style::Look)]) -> Drawn {
     let mut row = 62;
     for (technique, look) in series {
         marker(area, (LEGEND, row), *look)?;
-        words_at(area, technique, (LEGEND + 16, row), 16.0)?;
+        words_at(area, technique, (LEGEND + 16, row), 17.0)?;
         row += 24;
     }
     row += 8;
@@ -185,5 +186,5 @@ fn legend(area: &Area<'_>, series: &[(&str, super::style::Look)]) -> Drawn {
         vec![(LEGEND - 8, row), (LEGEND + 8, row)],
         style,
     ))?;
-    words_at(area, "front: nothing beats it", (LEGEND + 16, row), 16.0)
+    words_at(area, "front: nothing beats it", (LEGEND + 16, row), 17.0)
 }

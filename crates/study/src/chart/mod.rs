@@ -156,7 +156,7 @@ impl Plan<'_> {
             let area = SVGBackend::with_string(&mut drawing, self.size).into_drawing_area();
             let drawn = area
                 .fill(&BACK.color())
-                .and_then(|()| plot::words_at(&area, &self.title, (14, 20), 20.0))
+                .and_then(|()| plot::words_at(&area, &self.title, (14, 20), 23.0))
                 .and_then(|()| (self.body)(&area))
                 .and_then(|()| area.present());
             drawn.map_err(|source| Error {

@@ -197,8 +197,8 @@ impl<'a> Plot<'a> {
             .bold_line_style(GRID.color())
             .light_line_style(BACK.color().mix(0.0))
             .axis_style(TEXT.color())
-            .label_style(text(15.0))
-            .axis_desc_style(text(16.0))
+            .label_style(text(18.0))
+            .axis_desc_style(text(19.0))
             .x_desc(x_title)
             .y_desc(y_title)
             .draw()?;
