@@ -50,7 +50,7 @@ fn a_study_has_its_numbers_and_says_why_times_are_missing() {
     assert_eq!(study["schema"], 1);
     assert!(study["environment"].is_object());
     let points = study["points"].as_array().unwrap();
-    assert_eq!(points.len(), 4);
+    assert_eq!(points.len(), 6);
     for point in points {
         assert_eq!(
             (&point["map"], point["view_deg"].as_f64(), point["rays"].as_u64()),
@@ -78,14 +78,33 @@ fn a_study_has_its_numbers_and_says_why_times_are_missing() {
 fn a_scene_is_seen_by_its_camera_too() {
     let folder = tempfile::tempdir().unwrap();
     let scene = repository("examples/brick_wall.toml");
-    small(
+    let run = small(
         folder.path(),
-        &["--scene", text(&scene), "--technique", "parallax_offset"],
-    )
-    .exits(0);
+        &[
+            "--scene",
+            text(&scene),
+            "--technique",
+            "parallax_offset",
+            "--quick",
+        ],
+    );
+    run.exits(0);
     let study = study(folder.path());
     let points = study["points"].as_array().unwrap();
     assert_eq!(points.len(), 2);
+    let seen = &points[1]["scene"];
+    let number = |value: &serde_json::Value| value.as_f64().unwrap();
+    assert!((0.001..1.0).contains(&number(&seen["flip"])), "{seen}");
+    assert!(
+        number(&seen["colour"]["mean"]) < number(&seen["colour"]["max"]),
+        "{seen}"
+    );
+    assert!(seen["not_drawn"].is_null());
+    for part in ["reference", "test", "flip"] {
+        let name = format!("picture-brick_wall-parallax_offset-{part}.png");
+        let picture = image::open(folder.path().join(&name)).unwrap();
+        assert_eq!((picture.width(), picture.height()), (200, 150), "{name}");
+    }
     assert!(points[0]["scene"].is_null());
     assert!(points[1]["scene"]["error_px"]["p99"].as_f64().unwrap() > 0.0);
     assert_eq!(points[1]["map"], "brick_wall/bricks");
@@ -214,10 +233,19 @@ fn a_profile_has_every_technique_that_was_timed() {
         assert!(time["runs"].as_u64().unwrap() >= 9 && point["no_time"].is_null());
     }
     let read = fs::read_to_string(&profile).unwrap();
-    assert!(
-        read.contains("schema = 1") && read.contains("[technique.parallax_occlusion]"),
-        "{read}"
-    );
+    assert!(read.contains("[technique.parallax_occlusion]"), "{read}");
+    // A scene takes it.
+    let scene = fs::read_to_string(repository("examples/brick_wall.toml")).unwrap();
+    let textures = repository("examples/textures");
+    let scene = scene
+        .replace("textures/", &format!("{}/", text(&textures)))
+        .replace(
+            "error_px = 1.0",
+            &format!("error_px = 1.0\nprofile = \"{}\"", text(&profile)),
+        );
+    let file = folder.path().join("wall.toml");
+    fs::write(&file, scene).unwrap();
+    bossage_without_adapter(&["plan", text(&file)]).exits(0);
 }
 
 /// Kills a study when some of it is finished, and has it go on.

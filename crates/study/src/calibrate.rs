@@ -6,42 +6,13 @@
 //! it says how far the model is off, and it is not small where neighbouring rays differ and a driver makes them wait for each other.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
-use serde::Serialize;
+use bossage_runner::AdapterInfo;
+use bossage_scene::profile::{Cost, Profile};
 
 use crate::error::Error;
 use crate::record::Study;
-
-/// Version of the form.
-pub const SCHEMA: u32 = 1;
-
-/// A profile, as its file holds it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Profile {
-    /// [`SCHEMA`].
-    pub schema: u32,
-    /// What scenes call it.
-    pub name: String,
-    /// What was measured.
-    pub adapter: String,
-    /// Its driver.
-    pub driver: String,
-    /// By technique id.
-    pub technique: BTreeMap<String, Price>,
-}
-
-/// What a technique costs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Price {
-    /// Nanoseconds a ray.
-    pub ray_ns: f64,
-    /// Nanoseconds a step.
-    pub step_ns: f64,
-    /// Root mean square of the relative error of the fit.
-    pub residual: f64,
-    /// How many points were fitted.
-    pub points: usize,
-}
 
 /// A measurement: steps a ray, nanoseconds a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,11 +23,11 @@ pub struct Sample {
     pub ns: f64,
 }
 
-/// The profile of a study's timed points.
+/// The profile of a study's timed points, with the adapter and the driver that they were measured on.
 ///
 /// # Errors
 /// [`Error::NoDriver`] when nothing was timed.
-pub fn profile(study: &Study, name: &str, adapter: &str, driver: &str) -> Result<Profile, Error> {
+pub fn profile(study: &Study, name: &str, machine: &AdapterInfo) -> Result<Profile, Error> {
     let mut samples: BTreeMap<&str, Vec<Sample>> = BTreeMap::new();
     for point in &study.points {
         let (Some(time), Some(steps)) = (point.time_ms, point.steps) else {
@@ -76,32 +47,44 @@ pub fn profile(study: &Study, name: &str, adapter: &str, driver: &str) -> Result
         ));
     }
     Ok(Profile {
-        schema: SCHEMA,
         name: name.to_owned(),
-        adapter: adapter.to_owned(),
-        driver: driver.to_owned(),
-        technique: samples
+        adapter: machine.name.clone(),
+        driver: stated(&machine.driver_info),
+        techniques: samples
             .into_iter()
             .map(|(technique, samples)| (technique.to_owned(), fit(&samples)))
             .collect(),
     })
 }
 
-/// The file's text.
+/// Some drivers say nothing of themselves, and a profile wants a word.
+fn stated(driver: &str) -> String {
+    let word = driver.trim();
+    if word.is_empty() { "not stated" } else { word }.to_owned()
+}
+
+/// The file's text, which [`Profile::parse`] reads back as the same profile.
 ///
 /// # Errors
-/// When a number cannot be written, which a profile of finite times does not have.
+/// When it does not, which is a fault of ours.
 pub fn text(profile: &Profile) -> Result<String, Error> {
-    let body = toml::to_string(profile).map_err(|error| Error::Profile(error.to_string()))?;
-    Ok(format!(
+    let text = format!(
         "# What techniques cost on one adapter, fitted by `bossage study --calibrate`: a ray takes ray_ns + steps * step_ns.\n\
-         # residual: root mean square of the fit's relative error over so many points.\n{body}"
-    ))
+         # residual: root mean square of the fit's relative error over so many points.\n{}",
+        profile.to_toml()
+    );
+    let read =
+        Profile::parse(Path::new("the profile"), &text).map_err(|why| Error::Profile(why.to_string()))?;
+    if read == *profile {
+        Ok(text)
+    } else {
+        Err(Error::Profile("it does not read back as it was".to_owned()))
+    }
 }
 
 /// The fit. A line that would need a negative price is fitted again without that price.
 #[must_use]
-pub fn fit(samples: &[Sample]) -> Price {
+pub fn fit(samples: &[Sample]) -> Cost {
     // Each measurement divided by its time: 1 = ray/ns + step · steps/ns.
     let rows: Vec<[f64; 2]> = samples
         .iter()
@@ -115,11 +98,11 @@ pub fn fit(samples: &[Sample]) -> Price {
             .iter()
             .map(|row| (row[0] * ray_ns + row[1] * step_ns - 1.0).powi(2));
         let residual = (squares.sum::<f64>() / rows.len().max(1) as f64).sqrt();
-        Price {
+        Cost {
             ray_ns,
             step_ns,
-            residual,
-            points: rows.len(),
+            residual: Some(residual),
+            points: u32::try_from(rows.len()).ok(),
         }
     };
     let only_ray = of(a / aa, 0.0);
@@ -140,6 +123,11 @@ pub fn fit(samples: &[Sample]) -> Price {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
+    use bossage_runner::AdapterInfo;
+    use bossage_scene::profile::Profile;
+
     use super::{Sample, fit, profile, text};
     use crate::error::Error;
     use crate::record::{Point, Study, Time};
@@ -152,8 +140,8 @@ mod tests {
     fn points_on_a_line_give_the_line() {
         let price = fit(&samples(&[(0.0, 3.0), (4.0, 5.0), (100.0, 53.0)]));
         assert!((price.ray_ns - 3.0).abs() < 1e-9 && (price.step_ns - 0.5).abs() < 1e-9);
-        assert!(price.residual < 1e-9);
-        assert_eq!(price.points, 3);
+        assert!(price.residual.unwrap() < 1e-9);
+        assert_eq!(price.points, Some(3));
     }
 
     #[test]
@@ -162,7 +150,7 @@ mod tests {
         // One price for 10 and 30: the least relative error is at a/aa = (1/10 + 1/30)/(1/100 + 1/900) = 12.
         assert!((price.ray_ns - 12.0).abs() < 1e-9 && price.step_ns == 0.0);
         let expected = ((0.2_f64.powi(2) + 0.6_f64.powi(2)) / 2.0).sqrt();
-        assert!((price.residual - expected).abs() < 1e-9, "{price:?}");
+        assert!((price.residual.unwrap() - expected).abs() < 1e-9, "{price:?}");
     }
 
     #[test]
@@ -173,6 +161,14 @@ mod tests {
         let steep = fit(&samples(&[(10.0, 1.0), (20.0, 100.0)]));
         assert_eq!(steep.ray_ns, 0.0);
         assert!(steep.step_ns > 0.0);
+    }
+
+    fn machine(name: &str, driver: &str) -> AdapterInfo {
+        AdapterInfo {
+            name: name.to_owned(),
+            driver_info: driver.to_owned(),
+            ..bossage_embedded::info()
+        }
     }
 
     fn point(technique: &str, steps: f64, median: Option<f64>) -> Point {
@@ -200,22 +196,52 @@ mod tests {
             ],
             ..Study::default()
         };
-        let found = profile(&study, "lavapipe", "llvmpipe", "Mesa").unwrap();
-        assert_eq!(found.technique.keys().collect::<Vec<_>>(), ["exact"]);
-        let exact = found.technique["exact"];
+        let found = profile(&study, "lavapipe", &machine("llvmpipe", "Mesa")).unwrap();
+        assert_eq!(found.techniques.keys().collect::<Vec<_>>(), ["exact"]);
+        let exact = found.techniques["exact"];
         assert!(
             (exact.ray_ns - 3.0).abs() < 1e-9 && (exact.step_ns - 0.5).abs() < 1e-9,
             "{exact:?}"
         );
-        let text = text(&found).unwrap();
-        let read: toml::Table = text.parse().unwrap();
-        assert_eq!(read["schema"].as_integer(), Some(1));
-        assert_eq!(read["technique"]["exact"]["points"].as_integer(), Some(2));
+        let read = Profile::parse(Path::new("p.toml"), &text(&found).unwrap()).unwrap();
+        assert_eq!(read, found);
+        assert_eq!(
+            (read.adapter.as_str(), read.driver.as_str()),
+            ("llvmpipe", "Mesa")
+        );
+        assert_eq!(read.techniques["exact"].points, Some(2));
+    }
+
+    #[test]
+    fn a_driver_that_says_nothing_still_has_a_profile_that_reads() {
+        let study = Study {
+            points: vec![point("exact", 4.0, Some(0.005))],
+            ..Study::default()
+        };
+        let found = profile(&study, "quiet", &machine("SwiftShader \"fast\"", " ")).unwrap();
+        let read = Profile::parse(Path::new("p.toml"), &text(&found).unwrap()).unwrap();
+        assert_eq!(
+            (read.adapter.as_str(), read.driver.as_str()),
+            ("SwiftShader \"fast\"", "not stated")
+        );
+    }
+
+    #[test]
+    fn what_no_profile_may_hold_is_not_written() {
+        let study = Study {
+            points: vec![point("no_such_technique", 4.0, Some(0.005))],
+            ..Study::default()
+        };
+        let found = profile(&study, "mine", &machine("a", "b")).unwrap();
+        assert!(matches!(text(&found), Err(Error::Profile(_))));
     }
 
     #[test]
     fn nothing_timed_is_no_profile() {
         let study = Study::default();
-        assert!(matches!(profile(&study, "a", "b", "c"), Err(Error::NoDriver(_))));
+        assert!(matches!(
+            profile(&study, "a", &machine("b", "c")),
+            Err(Error::NoDriver(_))
+        ));
     }
 }

@@ -18,11 +18,13 @@ pub mod chart;
 mod error;
 pub mod flip;
 pub mod pareto;
+pub mod pictures;
 pub mod prices;
 pub mod record;
 pub mod report;
 #[cfg(test)]
 mod sample;
 pub mod sweep;
+pub mod versus;
 
 pub use error::Error;

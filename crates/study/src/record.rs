@@ -17,6 +17,9 @@ pub struct Study {
     pub environment: BTreeMap<String, String>,
     /// The relief ladder: one entry a technique, settings, map and view angle.
     pub points: Vec<Point>,
+    /// `exact` beside marching, one entry a map and view angle where both were timed.
+    #[serde(default)]
+    pub exact_against_marching: Vec<Versus>,
     /// The other prices of accuracy, one entry a chart and variant.
     pub prices: Vec<Price>,
 }
@@ -27,6 +30,7 @@ impl Default for Study {
             schema: SCHEMA,
             environment: BTreeMap::new(),
             points: Vec::new(),
+            exact_against_marching: Vec::new(),
             prices: Vec::new(),
         }
     }
@@ -151,12 +155,56 @@ pub struct SceneError {
     pub scene: String,
     /// Distances to the nearest hit that counts, on screen, pixels.
     pub error_px: Spread,
-    /// Differences of colour to the picture that `exact` draws, linear light; none where the technique was not drawn.
+    /// Differences of colour to the scene's f64 picture, over the pixels of its surfaces: of each the channel that is farthest off, in
+    /// linear light. None where the technique was not drawn.
     #[serde(default)]
     pub colour: Option<Spread>,
-    /// Mean FLIP to the picture that `exact` draws, in [0, 1]; none where the technique was not drawn.
+    /// Mean FLIP to the scene's f64 picture, in [0, 1]; none where the technique was not drawn.
     #[serde(default)]
     pub flip: Option<f64>,
+    /// Why it was not drawn.
+    #[serde(default)]
+    pub not_drawn: Option<String>,
+}
+
+/// `exact` beside the marching techniques, on one map at one angle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Versus {
+    /// The height map's name.
+    pub map: String,
+    /// Angle of the view from the polygon's normal, degrees.
+    pub view_deg: f64,
+    /// `exact`.
+    pub exact: Rival,
+    /// The p99 error at which times are compared, texels.
+    pub error_texels: f64,
+    /// Whether `exact` has at most that error.
+    pub exact_gets_there: bool,
+    /// The fastest march with at most that error, or else the one that comes nearest to it.
+    pub at_equal_error: Rival,
+    /// Whether it has at most that error.
+    pub gets_there: bool,
+    /// Its time over that of `exact`.
+    pub times_faster: f64,
+    /// The most exact march that takes no longer than `exact`, or else the fastest.
+    pub at_equal_time: Rival,
+    /// Whether it takes no longer.
+    pub is_as_fast: bool,
+    /// Its p99 error over that of `exact`; none where `exact` has no error.
+    pub times_smaller: Option<f64>,
+}
+
+/// A point in a comparison.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rival {
+    /// Technique id.
+    pub technique: String,
+    /// Its settings.
+    pub settings: Settings,
+    /// 99th percentile of its error, texels.
+    pub p99: f64,
+    /// Median time, milliseconds.
+    pub ms: f64,
 }
 
 /// Times of one job, milliseconds.

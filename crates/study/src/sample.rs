@@ -1,6 +1,6 @@
 //! Made-up studies for tests.
 
-use crate::record::{ErrorTexels, Point, Price, Settings, Study, Time};
+use crate::record::{ErrorTexels, Point, Price, Rival, Settings, Study, Time, Versus};
 
 /// A point with round figures.
 pub(crate) fn point(technique: &str, map: &str, view_deg: f64) -> Point {
@@ -73,12 +73,41 @@ pub(crate) fn study() -> Study {
             add("exact", Settings::default(), 3.0, 0.0);
         }
     }
+    study.exact_against_marching = study
+        .points
+        .iter()
+        .filter(|point| point.technique == "exact")
+        .map(|exact| versus(&exact.map, exact.view_deg))
+        .collect();
     study.prices = ["f16", "f32", "f64"]
         .into_iter()
         .zip([2e-3, 4e-7, 0.0])
         .map(|(variant, p99)| price(variant, p99))
         .collect();
     study
+}
+
+/// Marching that gets there at half of `exact`'s speed.
+fn versus(map: &str, view_deg: f64) -> Versus {
+    let rival = |technique: &str, ms: f64, p99: f64| Rival {
+        technique: technique.to_owned(),
+        settings: Settings::default(),
+        p99,
+        ms,
+    };
+    Versus {
+        map: map.to_owned(),
+        view_deg,
+        exact: rival("exact", 3.0, 0.0),
+        error_texels: 0.5,
+        exact_gets_there: true,
+        at_equal_error: rival("relief", 6.0, 0.4),
+        gets_there: true,
+        times_faster: 2.0,
+        at_equal_time: rival("parallax_occlusion", 2.5, 1.5),
+        is_as_fast: true,
+        times_smaller: None,
+    }
 }
 
 /// A variant of a chart of arithmetic; `f64` is not timed.

@@ -22,6 +22,7 @@ pub mod truth;
 use std::sync::Arc;
 
 use bossage_runner::{ComputeJob, Machine, TimedJob, TimingOptions};
+use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::record::{Point, SceneError, Time};
@@ -146,18 +147,21 @@ impl Sweep<'_> {
         let truths = truth::trace(&cell.map, &cell.rays);
         let counted = &cell.rays[..cell.rays.len().min(self.options.counted)];
         let (all, first) = (kernel::pack(&cell.rays), kernel::pack(counted));
-        let subjects = which.iter().map(|at| &self.subjects[*at]);
+        let subjects: Vec<&Subject> = which.iter().map(|at| &self.subjects[*at]).collect();
         let whole: Vec<ComputeJob<'_>> = subjects
-            .clone()
+            .iter()
             .map(|subject| subject.job(&cell.map, &all))
             .collect::<Result<_, _>>()?;
+        let cost = |subject: &&Subject| {
+            let job = subject.job(&cell.map, &first)?;
+            cost::count(&subject.prepared, &job, counted.len())
+        };
+        let costs: Vec<Cost> = subjects.par_iter().map(cost).collect::<Result<_, _>>()?;
         let mut measures = Vec::with_capacity(whole.len());
-        for (subject, job) in subjects.clone().zip(&whole) {
+        for ((subject, job), cost) in subjects.iter().zip(&whole).zip(costs) {
             let answers = kernel::answers(&job.run(self.machine)?, cell.rays.len());
-            let cost = cost::count(&subject.prepared, &subject.job(&cell.map, &first)?, counted.len())?;
-            let steps = subject.steps(&cell.map, counted);
             measures.push(Measured {
-                steps,
+                steps: subject.steps(&cell.map, counted),
                 summary: statistics::summarise(&truths, &answers),
                 scene: cell.screen.as_ref().map(|screen| screen.error(&truths, &answers)),
                 cost,
@@ -165,7 +169,7 @@ impl Sweep<'_> {
         }
         let times = self.times(&whole)?;
         let point = |((subject, measured), time)| self.point(cell, subject, measured, time);
-        Ok(subjects.zip(measures).zip(times).map(point).collect())
+        Ok(subjects.into_iter().zip(measures).zip(times).map(point).collect())
     }
 
     /// Times of all jobs, in turns; none from a machine that has no driver.

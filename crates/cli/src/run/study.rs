@@ -1,6 +1,7 @@
 //! `bossage study`: what accuracy costs, measured, and kept as it is finished.
 
 mod cells;
+mod pictures;
 mod prices;
 mod table;
 
@@ -8,6 +9,7 @@ use std::fs;
 use std::path::Path;
 
 use bossage_conformance::Route;
+use bossage_conformance::bench::Bench;
 use bossage_conformance::environment::Environment;
 use bossage_runner::{Machine, TimingOptions};
 use bossage_shaders::Library;
@@ -16,7 +18,7 @@ use bossage_study::sweep::journal::Journal;
 use bossage_study::sweep::ladder::{self, Chosen};
 use bossage_study::sweep::subject::Subject;
 use bossage_study::sweep::{Cell, Options, Sweep, Watch};
-use bossage_study::{pareto, record, report};
+use bossage_study::{pareto, record, report, versus};
 
 use crate::Verdict;
 use crate::args::Global;
@@ -26,6 +28,7 @@ use crate::error::{Error, Result};
 use crate::nearest::suggestion;
 use crate::output::{Outputs, check_writable};
 use crate::{inputs, machine};
+use cells::Views;
 
 /// What is written for machines.
 const FILE: &str = "study.json";
@@ -36,7 +39,7 @@ pub(crate) fn run(args: &Study, global: &Global, console: Console) -> Result<Ver
     let (library, _) = inputs::library(global)?;
     let charts = prices::charts(args)?;
     let chosen = chosen(args)?;
-    let cells = cells::of(args)?;
+    let Views { cells, scenes } = cells::of(args)?;
     let measured = &args.measured;
     check_writable(&args.output.join(FILE))?;
     measured.calibrate.as_deref().map_or(Ok(()), check_writable)?;
@@ -48,8 +51,9 @@ pub(crate) fn run(args: &Study, global: &Global, console: Console) -> Result<Ver
             bossage_runner::HOW_TO_GET_AN_ADAPTER
         )));
     }
+    let route = route(args, machine.as_ref());
     let points = if args.price.is_empty() {
-        let subjects = subjects(args, &library, &chosen, machine.as_ref())?;
+        let subjects = subjects(args, &library, &chosen, route)?;
         console.note(format_args!(
             "{} techniques, {} views on {}",
             subjects.len(),
@@ -67,8 +71,15 @@ pub(crate) fn run(args: &Study, global: &Global, console: Console) -> Result<Ver
         ..record::Study::default()
     };
     pareto::mark(&mut study.points);
+    study.exact_against_marching = versus::all(&study);
+    let pairs = pictures::pairs(
+        &scenes,
+        &mut study,
+        &Bench::new(machine.as_ref(), route, &library),
+        console,
+    )?;
     let mut outputs = Outputs::default();
-    for (name, bytes) in report::files(&study, &[])? {
+    for (name, bytes) in report::files(&study, &pairs)? {
         outputs.add(args.output.join(name), "the report", bytes)?;
     }
     outputs.add(
@@ -115,18 +126,16 @@ fn explained(error: bossage_study::Error) -> Error {
     }
 }
 
-/// Who takes part: the library's techniques, then the user's shaders.
-fn subjects(
-    args: &Study,
-    library: &Library,
-    chosen: &[Chosen],
-    machine: &dyn Machine,
-) -> Result<Vec<Subject>> {
-    let route = match args.measured.route {
+fn route(args: &Study, machine: &dyn Machine) -> Route {
+    match args.measured.route {
         _ if machine::is_embedded(machine.info()) => Route::Embedded,
         RouteName::Spirv => Route::Spirv,
         RouteName::Wgsl => Route::Wgsl,
-    };
+    }
+}
+
+/// Who takes part: the library's techniques, then the user's shaders.
+fn subjects(args: &Study, library: &Library, chosen: &[Chosen], route: Route) -> Result<Vec<Subject>> {
     let mut subjects = Subject::of_library(library, chosen, route)?;
     for file in &args.shader {
         subjects.push(of_user(file, library, route)?);
@@ -200,9 +209,8 @@ fn environment(machine: &dyn Machine) -> std::collections::BTreeMap<String, Stri
 }
 
 fn profile(study: &record::Study, path: &Path, machine: &dyn Machine) -> Result<String> {
-    let info = machine.info();
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let profile = calibrate::profile(study, &name, &info.name, &info.driver_info)?;
+    let profile = calibrate::profile(study, &name, machine.info())?;
     Ok(calibrate::text(&profile)?)
 }
 

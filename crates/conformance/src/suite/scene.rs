@@ -20,6 +20,7 @@ mod truth;
 pub mod two_pass;
 mod upload;
 pub mod vertices;
+pub mod whole;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -1,7 +1,7 @@
 //! What a study must hold before it is drawn: numbers that are finite and not negative.
 
 use super::Error;
-use crate::record::{Point, Price, Study, Time};
+use crate::record::{Point, Price, SceneError, Study, Time};
 
 /// Refuses the first figure that has no place on a chart.
 pub(super) fn figures(study: &Study) -> Result<(), Error> {
@@ -29,11 +29,26 @@ fn point(point: &Point) -> Result<(), Error> {
         )
     };
     let times = times(point.time_ms.as_ref());
+    let on_screen = on_screen(point.scene.as_ref());
     refuse_bad(
-        figures.into_iter().chain(settings).chain(times),
+        figures.into_iter().chain(settings).chain(times).chain(on_screen),
         subject,
         &point.rerun,
     )
+}
+
+fn on_screen(scene: Option<&SceneError>) -> impl Iterator<Item = (&'static str, f64)> {
+    scene.into_iter().flat_map(|scene| {
+        let pixels = scene.error_px;
+        let colour = scene.colour.unwrap_or_default();
+        [
+            ("scene.error_px.p99", pixels.p99),
+            ("scene.error_px.max", pixels.max),
+            ("scene.colour.mean", colour.mean),
+            ("scene.colour.max", colour.max),
+            ("scene.flip", scene.flip.unwrap_or_default()),
+        ]
+    })
 }
 
 fn price(price: &Price) -> Result<(), Error> {

@@ -7,6 +7,7 @@ mod error;
 mod page;
 mod pair;
 mod table;
+mod versus;
 
 use std::collections::BTreeMap;
 

@@ -4,7 +4,7 @@ use bossage_conformance::report::page::Page;
 use maud::{Markup, PreEscaped, html};
 
 use super::pair::Compared;
-use super::{pair, table};
+use super::{pair, table, versus};
 use crate::chart::{self, Chart, Kind};
 use crate::record::Study;
 
@@ -18,6 +18,7 @@ pub(super) fn write(study: &Study, charts: &[Chart], pairs: &[Compared<'_>]) -> 
         (section("time", "Error against time", fronts(charts, Kind::Time, NOT_TIMED)))
         (section("operations", "Error against operations", fronts(charts, Kind::Operations, NOTHING)))
         (section("angle", "Error against view angle", plain(charts, Kind::Angle, "The study has one view angle only.")))
+        (section("exact", "Exact against marching", versus::section(&study.exact_against_marching)))
         (section("pictures", "Pictures", pair::section(pairs)))
         (section("prices", "Other prices of accuracy", plain(charts, Kind::Price, NOTHING)))
         (section("points", "All points", table::points(study)))
@@ -38,10 +39,11 @@ const NOT_TIMED: &str = "Nothing was timed: that needs a driver. Counted operati
 const NOTHING: &str = "The study has none.";
 
 /// Sections of the page.
-const PARTS: [(&str, &str); 8] = [
+const PARTS: [(&str, &str); 9] = [
     ("time", "Time"),
     ("operations", "Operations"),
     ("angle", "View angle"),
+    ("exact", "Exact against marching"),
     ("pictures", "Pictures"),
     ("prices", "Other prices"),
     ("points", "All points"),

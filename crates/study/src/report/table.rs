@@ -5,7 +5,7 @@
 use maud::{Markup, html};
 
 use crate::chart::short;
-use crate::record::{Point, Price, Study, Time};
+use crate::record::{Point, Price, SceneError, Study, Time};
 
 /// Every point of the ladder.
 pub(super) fn points(study: &Study) -> Markup {
@@ -14,13 +14,14 @@ pub(super) fn points(study: &Study) -> Markup {
         @else {
             p { "Errors in texels, times in milliseconds; operations and texture reads are those of one ray, counted. Shares of rays: "
                 "more than 1 texel off; of these through the surface, or stopped early before it; lost, without a number for an answer. "
+                "Colours of a scene's picture, in linear light, and FLIP are differences to its picture in f64. "
                 "The heads of the table sort it." }
             div.scroll tabindex="0" role="region" aria-label="Table of all points" {
                 table data-sortable {
                     caption { "Techniques and settings on each map and view angle" }
                     thead { tr {
                         @for title in [
-                            "technique", "settings", "map", "view", "mean", "p50", "p99", "max", "over 1 texel", "through", "early", "lost", "time", "fastest to slowest",
+                            "technique", "settings", "map", "view", "mean", "p50", "p99", "max", "over 1 texel", "through", "early", "lost", "colour, mean", "colour, max", "FLIP", "time", "fastest to slowest",
                             "operations", "reads", "front", "command",
                         ] { th scope="col" { (title) } }
                     } }
@@ -38,14 +39,31 @@ fn point_row(point: &Point) -> Markup {
             th scope="row" { code { (point.technique) } }
             td { (or_none(&point.settings.to_string())) }
             td { (point.map) }
-            td.number data-sort=(point.view_deg) { (point.view_deg) "°" }
+            td.number data-sort=(point.view_deg) { (short(point.view_deg)) "°" }
             @for error in [errors.mean, errors.p50, errors.p99, errors.max] { (number(error)) }
             @for share in [errors.over_1, kinds.missed, kinds.early, kinds.lost] { (percent(share)) }
+            (on_screen(point.scene.as_ref()))
             (times(point.time_ms.as_ref(), point.no_time.as_deref()))
             (number(point.ops))
             (number(point.fetches))
             td { (if point.pareto { "yes" } else { "no" }) }
             td { code { (point.rerun) } }
+        }
+    }
+}
+
+/// Colour and FLIP of a scene's picture; other points have none, and those that were not drawn say why.
+fn on_screen(scene: Option<&SceneError>) -> Markup {
+    let drawn = scene.and_then(|scene| Some((scene.colour?, scene.flip?)));
+    let why_not = scene.and_then(|scene| scene.not_drawn.as_deref());
+    html! {
+        @match drawn {
+            Some((colour, flip)) => { @for value in [colour.mean, colour.max, flip] { (number(value)) } }
+            None => {
+                td { @match why_not { Some(why) => { "not drawn: " (why) } None => { "–" } } }
+                td { "–" }
+                td { "–" }
+            }
         }
     }
 }

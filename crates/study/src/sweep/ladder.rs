@@ -60,7 +60,7 @@ pub const LADDER: &[Technique] = &[
     Technique {
         id: "relief",
         takes: &["layers", "refinements"],
-        swept: &[&[8, 4], &[16, 5], &[32, 6]],
+        swept: &[&[8, 4], &[16, 5], &[32, 6], &[64, 6], &[128, 6]],
         quick: &[1],
     },
     Technique {
@@ -217,6 +217,16 @@ pub fn parse(text: &str) -> Result<Vec<Chosen>, Error> {
     Ok(vec![Chosen { technique, values }])
 }
 
+/// The technique with settings as a point states them; none of users' shaders, and where they don't fit.
+#[must_use]
+pub fn find_settings(name: &str, settings: &Settings) -> Option<Chosen> {
+    let technique = find(name).ok()?;
+    let value = |setting: &&str| settings.0.get(*setting).map(|value| *value as u32);
+    let values = technique.takes.iter().map(value).collect::<Option<_>>()?;
+    let chosen = Chosen { technique, values };
+    (chosen.settings() == *settings).then_some(chosen)
+}
+
 fn find(name: &str) -> Result<&'static Technique, Error> {
     let found = LADDER
         .iter()
@@ -265,7 +275,7 @@ fn form(technique: &Technique) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{LADDER, default_choice, parse};
+    use super::{LADDER, default_choice, find_settings, parse};
 
     #[test]
     fn what_is_written_reads_back() {
@@ -282,6 +292,10 @@ mod tests {
                 .collect();
             names.sort_by(|a, b| a.0.cmp(&b.0));
             assert_eq!(names, settings, "shader and reference take the same settings");
+            assert_eq!(
+                find_settings(chosen.technique.id, &chosen.settings()),
+                Some(chosen.clone())
+            );
             assert_eq!(again, [chosen]);
         }
     }
@@ -295,7 +309,9 @@ mod tests {
             [
                 "relief:layers=8,refinements=4",
                 "relief:layers=16,refinements=5",
-                "relief:layers=32,refinements=6"
+                "relief:layers=32,refinements=6",
+                "relief:layers=64,refinements=6",
+                "relief:layers=128,refinements=6"
             ]
         );
         assert_eq!(all[1].settings().to_string(), "layers=16 refinements=5");

@@ -12,14 +12,27 @@ mod sample;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
+use bossage_conformance::Route;
+use bossage_conformance::bench::Bench;
+use bossage_embedded::Embedded;
+use bossage_shaders::Library;
+use bossage_study::pictures::{self, Pictured};
 use bossage_study::record;
-use bossage_study::report::{self, Pair, Shot};
+use bossage_study::report::{self, Files, Pair, Shot};
 use image::{Rgb, RgbImage};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use browser::Browser;
+
+/// The report that all tests open.
+static REPORT: LazyLock<Files> = LazyLock::new(|| {
+    let mut study = sample::study();
+    bossage_study::pareto::mark(&mut study.points);
+    report::files(&study, &[pair("bricks"), pair("dunes")]).unwrap()
+});
 
 /// A folder with a report, and whatever a test adds.
 struct Folder(TempDir);
@@ -27,10 +40,7 @@ struct Folder(TempDir);
 impl Folder {
     fn with_report() -> Self {
         let folder = Self(tempfile::tempdir().unwrap());
-        let mut study = sample::study();
-        bossage_study::pareto::mark(&mut study.points);
-        let files = report::files(&study, &[pair("bricks"), pair("dunes")]).unwrap();
-        for (name, bytes) in files {
+        for (name, bytes) in REPORT.iter() {
             std::fs::write(folder.0.path().join(name), bytes).unwrap();
         }
         folder
@@ -124,13 +134,78 @@ fn the_policy_keeps_the_page_from_fetching() {
         "a file that is there"
     );
     let free = Folder::with_page("<!DOCTYPE html><title>x</title>");
-    std::fs::write(
-        free.0.path().join("time-bricks-30.png"),
-        report::files(&sample::study(), &[]).unwrap()["time-bricks-30.png"].clone(),
-    )
-    .unwrap();
+    let picture = "time-bricks-30.png";
+    std::fs::write(free.0.path().join(picture), &REPORT[picture]).unwrap();
     browser.open(&free.url());
     assert_eq!(browser.evaluate(attempt), json!("loaded"), "without a policy");
+}
+
+/// The report of two techniques over the bundled wall, drawn small and without a driver.
+fn report_of_a_scene() -> Files {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/brick_wall.toml");
+    let wall = Pictured {
+        name: "brick_wall".to_owned(),
+        scene: bossage_scene::load(path.as_ref()).unwrap(),
+    };
+    let drawn_by = |technique: &str, settings| record::Point {
+        technique: technique.to_owned(),
+        settings,
+        scene: Some(record::SceneError {
+            scene: wall.name.clone(),
+            ..record::SceneError::default()
+        }),
+        ..record::Point::default()
+    };
+    let mut study = record::Study {
+        points: vec![
+            drawn_by("parallax_offset", record::Settings::default()),
+            drawn_by("parallax_occlusion", record::Settings::of([("layers", 16.0)])),
+        ],
+        ..record::Study::default()
+    };
+    let (machine, library) = (Embedded::new(), Library::embedded().unwrap());
+    let bench = Bench::new(&machine, Route::Embedded, &library);
+    let pairs = pictures::compare(&[wall.at_most(96)], &mut study, &bench, &mut |_| ()).unwrap();
+    report::files(&study, &pairs).unwrap()
+}
+
+/// Of each pair: how many bytes its pictures have, in how many both differ, how many values its error map has.
+const PAIRS: &str = "(() => { const bytes = (image) => { const canvas = document.createElement('canvas'); \
+    [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight]; const to = canvas.getContext('2d'); to.drawImage(image, 0, 0); \
+    return [...to.getImageData(0, 0, canvas.width, canvas.height).data]; }; \
+    return [...document.querySelectorAll('.pair')].map((pair) => { const [test, reference, map] = [...pair.querySelectorAll('img')].map(bytes); \
+    return [test.length, test.filter((value, at) => value !== reference[at]).length, new Set(map).size]; }); })()";
+
+#[test]
+fn the_pictures_of_a_scene_are_there_and_differ_from_the_truth() {
+    let Some(mut browser) = Browser::start("pictures") else {
+        return;
+    };
+    let folder = Folder::with_page("");
+    for (name, bytes) in report_of_a_scene() {
+        std::fs::write(folder.0.path().join(name), bytes).unwrap();
+    }
+    browser.resize(1280, 900);
+    browser.open(&folder.url());
+    assert_eq!(complaints(&mut browser), Vec::<String>::new());
+    let pairs = browser.evaluate(PAIRS);
+    let number = |pair: usize, index: usize| pairs[pair][index].as_u64().unwrap();
+    assert_eq!(pairs.as_array().unwrap().len(), 2, "one a technique");
+    for pair in [0, 1] {
+        assert_eq!(number(pair, 0), 96 * 72 * 4);
+        assert!(number(pair, 1) > 1000 && number(pair, 2) > 50, "{pairs}");
+    }
+    // By name: parallax_occlusion, then parallax_offset, which is farther off.
+    assert!(number(1, 1) > number(0, 1), "{pairs}");
+    let (_, text, _) = slider(&mut browser);
+    assert_eq!(
+        text,
+        "50 % the first hit in f64, 50 % parallax_occlusion layers=16"
+    );
+    // The control: a picture of the truth itself would be seen.
+    browser.evaluate("document.querySelector('.pair img').src = document.querySelector('.pair .over').src");
+    browser.evaluate("document.querySelector('.pair img').decode()");
+    assert_eq!(browser.evaluate(PAIRS)[0][1], json!(0));
 }
 
 /// Value, text and place of the first slider's border.

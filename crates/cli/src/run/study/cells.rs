@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use bossage_assets::EdgeMode;
 use bossage_scene::Scene;
+use bossage_study::pictures::Pictured;
 use bossage_study::sweep::map::Map;
 use bossage_study::sweep::{Cell, rays, seen};
 
@@ -21,9 +22,20 @@ const QUICK_VIEWS_DEG: [f64; 2] = [30.0, 75.0];
 const RAYS: u32 = 65_536;
 /// Those of a quick study.
 const QUICK_RAYS: u32 = 16_384;
+/// Width of scenes' pictures at most, pixels: the page holds each as text.
+const WIDTH: u32 = 400;
+/// Those of a quick study.
+const QUICK_WIDTH: u32 = 200;
 
-/// Every map at every angle; every material of the scenes at every angle and as its camera sees it.
-pub(super) fn of(args: &Study) -> Result<Vec<Cell>> {
+/// What a study looks at.
+pub(super) struct Views {
+    /// Every map at every angle; every material of the scenes at every angle and as its camera sees it.
+    pub(super) cells: Vec<Cell>,
+    /// The scenes, in the size of the page's pictures.
+    pub(super) scenes: Vec<Pictured>,
+}
+
+pub(super) fn of(args: &Study) -> Result<Views> {
     let usual: &[f64] = if args.measured.quick {
         &QUICK_VIEWS_DEG
     } else {
@@ -54,11 +66,19 @@ pub(super) fn of(args: &Study) -> Result<Vec<Cell>> {
     } else {
         given.collect()
     };
+    let mut pictured = Vec::new();
     for (origin, views_deg) in scenes {
-        cells.extend(of_scene(args, &origin, views_deg)?);
+        let scene = load(&origin)?;
+        let name = Path::new(&origin).file_stem().unwrap_or_default();
+        let name = name.to_string_lossy().into_owned();
+        cells.extend(of_scene(args, &scene, &name, &origin, views_deg)?);
+        pictured.push(Pictured { name, scene }.at_most(width(args)));
     }
     distinct(&cells)?;
-    Ok(cells)
+    Ok(Views {
+        cells,
+        scenes: pictured,
+    })
 }
 
 /// Whether nothing is asked for: then the bundled maps are seen from the angles, and the bundled scenes, which have the same maps, by their
@@ -82,6 +102,10 @@ fn count(args: &Study) -> u32 {
         .unwrap_or(if args.measured.quick { QUICK_RAYS } else { RAYS })
 }
 
+fn width(args: &Study) -> u32 {
+    if args.measured.quick { QUICK_WIDTH } else { WIDTH }
+}
+
 fn from_angle(args: &Study, map: &Arc<Map>, view_deg: f64) -> Cell {
     Cell {
         map: Arc::clone(map),
@@ -93,13 +117,8 @@ fn from_angle(args: &Study, map: &Arc<Map>, view_deg: f64) -> Cell {
 }
 
 /// The materials that have something to study; a scene without any is a mistake.
-fn of_scene(args: &Study, origin: &str, views_deg: &[f64]) -> Result<Vec<Cell>> {
-    let scene = load(origin)?;
-    let name = Path::new(origin)
-        .file_stem()
-        .unwrap_or_default()
-        .to_string_lossy();
-    let materials = seen::materials(&scene, &name, origin, count(args));
+fn of_scene(args: &Study, scene: &Scene, name: &str, origin: &str, views_deg: &[f64]) -> Result<Vec<Cell>> {
+    let materials = seen::materials(scene, name, origin, count(args));
     if materials.is_empty() {
         return Err(Error::Call(format!(
             "{origin}: its camera sees no material with a height map, so there is no relief to study"

@@ -103,7 +103,7 @@ pub(super) fn passes(draw: &Draw) -> Vec<Stage> {
 }
 
 /// Without the alpha test, so that pixels that should be cut out are known too.
-fn uncut(features: &FeatureSet) -> FeatureSet {
+pub(super) fn uncut(features: &FeatureSet) -> FeatureSet {
     FeatureSet {
         alpha: Alpha::Opaque,
         ..*features
