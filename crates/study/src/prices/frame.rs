@@ -104,6 +104,12 @@ impl Frame {
         self
     }
 
+    /// With a buffer of that name written instead of [`OUTPUTS`].
+    pub(super) fn leaving(mut self, output: &'static str) -> Self {
+        self.output = output;
+        self
+    }
+
     /// Runs the frame on the machine and counts what an item costs. What the machine lacks the evaluator does instead, and there is
     /// no time then.
     pub(super) fn measure(&self, context: &Context<'_>) -> Result<Measured<'_>, Error> {
@@ -126,8 +132,18 @@ impl Frame {
         }
     }
 
+    /// What is to be timed, or what the machine lacks.
+    pub(super) fn timed(&self, context: &Context<'_>) -> Result<Result<Timed<'_>, String>, Error> {
+        let job = self.job()?;
+        match job.run(context.machine) {
+            Ok(_) => Ok(Ok(Timed::Compute(job))),
+            Err(lacking @ bossage_runner::Error::Unsupported { .. }) => Ok(Err(lacking.to_string())),
+            Err(error) => Err(error.into()),
+        }
+    }
+
     /// What one of the first items costs.
-    fn cost(&self) -> Result<Cost, Error> {
+    pub(super) fn cost(&self) -> Result<Cost, Error> {
         Ok(self.execute(COUNTED)?.0)
     }
 

@@ -21,6 +21,7 @@ mod error;
 mod filter;
 mod form;
 mod frame;
+mod height_depth;
 mod height_normals;
 mod heights;
 mod normaliser;
@@ -71,13 +72,14 @@ impl Context<'_> {
 type Measure = fn(&Context<'_>) -> Result<Vec<Price>, Error>;
 
 /// Every chart, in the order of the report.
-const TABLE: [(&str, Measure); 9] = [
+const TABLE: [(&str, Measure); 10] = [
     ("arithmetic", arithmetic::prices),
     ("normaliser", normaliser::prices),
     ("codec", codec::prices),
     ("derivative", derivative::prices),
     ("derivative_bilinear", derivative_bilinear::prices),
     ("filter", filter::prices),
+    ("height_depth", height_depth::prices),
     ("height_normals", height_normals::prices),
     ("passes", passes::prices),
     ("form", form::prices),
