@@ -7,7 +7,7 @@ use crate::texture::{Sampler, Texture};
 use std::collections::BTreeMap;
 
 /// The reserved key of immediate data ("push constants").
-pub(crate) const IMMEDIATE: (u32, u32) = (u32::MAX, 0);
+pub const IMMEDIATE: (u32, u32) = (u32::MAX, 0);
 
 /// One scalar of a buffer, input or output, as callers see it.
 #[derive(Clone, Copy, Debug, PartialEq)]

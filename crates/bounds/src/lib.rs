@@ -93,7 +93,7 @@ mod texture;
 mod width;
 
 pub use attribution::{Attribution, Contribution, attribution};
-pub use bindings::{Bindings, BufferData, Scalar, range_scalar};
+pub use bindings::{Bindings, BufferData, IMMEDIATE, Scalar, range_scalar};
 pub use compile::program::Program;
 pub use domain::point::{F32, F64};
 pub use domain::{Domain, Truth, ops};

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use bossage_scene::{Plan, Scene, Shape};
 use bossage_shaders::{AssembledShader, Library};
 use bossage_translate::manifest::Entry;
-use bossage_translate::{EmitOptions, Shader, Source, Stage, manifest};
+use bossage_translate::{Code, EmitOptions, Overrides, Shader, Source, Stage, manifest};
 use rayon::prelude::*;
 
 use crate::args::Global;
@@ -70,6 +70,19 @@ impl Module {
     /// The parsed and validated shader, ready to be written to files of its name.
     pub(crate) fn parse(&self) -> Result<Shader> {
         parse(&self.name, &self.source).or_else(|_| self.parse_labelled())
+    }
+
+    /// The same, under the name that messages use, with values for its pipeline-overridable constants.
+    pub(crate) fn parse_with(&self, overrides: &Overrides) -> Result<Shader> {
+        Shader::parse_with(&self.label, &self.source, overrides).map_err(|diagnostic| {
+            let lacks_value = diagnostic.code == Code::Override && !diagnostic.labels.is_empty();
+            Error::Shaders(vec![match lacks_value {
+                true => diagnostic.with_hint(
+                    "give it a default in the shader, or a value under [overrides] of NAME.ranges.toml",
+                ),
+                false => diagnostic,
+            }])
+        })
     }
 
     /// The same, under the name that messages use.

@@ -1,7 +1,8 @@
 //! What a job binds, as the evaluator's bindings.
 
-use bossage_bounds::{Bindings, Domain};
+use bossage_bounds::{Bindings, CompareFunction, Domain};
 use bossage_runner::{Error, Resolved, Value};
+use bossage_translate::manifest::Kind;
 
 use crate::failure::within;
 use crate::texture;
@@ -28,8 +29,18 @@ pub fn bindings<D: Domain>(job: &str, resolved: &[Resolved<'_>]) -> Result<Bindi
                 )?;
                 bindings.bytes(group, binding, data.bytes())
             }
-            Value::Texture(data) => bindings.texture(group, binding, texture::texture(job, data)?),
-            Value::Sampler(settings) => bindings.sampler(group, binding, texture::sampler(job, settings)?),
+            Value::Texture(data) | Value::StorageTexture(data) => {
+                bindings.texture(group, binding, texture::texture(job, data)?)
+            }
+            Value::Sampler(settings) => {
+                let sampler = texture::sampler(job, settings)?;
+                let compares = one.binding.kind == Kind::ComparisonSampler;
+                let sampler = match compares {
+                    true => sampler.comparing(CompareFunction::LessEqual),
+                    false => sampler,
+                };
+                bindings.sampler(group, binding, sampler)
+            }
         };
     }
     Ok(bindings)

@@ -3,15 +3,16 @@
 use std::collections::BTreeMap;
 
 use bossage_bounds::{F32, Limits, run_compute};
-use bossage_runner::{ComputeJob, ComputeOutput, Error, Machine, Value, resolve};
+use bossage_runner::{ComputeJob, ComputeOutput, Error, Machine, Value, push_constants, resolve};
 use bossage_translate::Stage;
 use bossage_translate::manifest::Kind;
 
 use crate::bind::bindings;
 use crate::failure::{misfit, of_job, within};
 use crate::machine::Embedded;
+use crate::texture;
 
-/// Runs a dispatch; gives back all buffers that it may write.
+/// Runs a dispatch; gives back all buffers and textures that it may write.
 pub(crate) fn run(machine: &Embedded, job: &ComputeJob<'_>) -> Result<ComputeOutput, Error> {
     let entry = job.shader.entry;
     if entry.stage != Stage::Compute {
@@ -27,7 +28,8 @@ pub(crate) fn run(machine: &Embedded, job: &ComputeJob<'_>) -> Result<ComputeOut
         )?;
     }
     let resolved = resolve(job.name, &[&job.shader], &job.resources)?;
-    let mut bindings = bindings::<F32>(job.name, &resolved)?;
+    let pushed = push_constants(job.name, &[&job.shader], &job.resources)?;
+    let mut bindings = bindings::<F32>(job.name, &resolved)?.immediate(pushed);
     let compiled = machine.programs.get(job.name, &job.shader)?;
     run_compute(
         &compiled.program,
@@ -51,5 +53,14 @@ pub(crate) fn run(machine: &Embedded, job: &ComputeJob<'_>) -> Result<ComputeOut
             .ok_or_else(|| misfit(entry, &one.binding.name, "it can't be read back".to_owned()))?;
         buffers.insert(one.binding.name.clone(), bytes);
     }
-    Ok(ComputeOutput { buffers })
+    let mut textures = BTreeMap::new();
+    for one in &resolved {
+        if let (Value::StorageTexture(data), Some(scalars)) =
+            (&one.value, bindings.written_textures.get(&one.place))
+        {
+            let bytes = texture::format(data.format).bytes_of(scalars);
+            textures.insert(one.binding.name.clone(), bytes);
+        }
+    }
+    Ok(ComputeOutput { buffers, textures })
 }

@@ -1,7 +1,7 @@
 //! One draw: vertices, triangles, coverage, fragments.
 
 use bossage_bounds::F32;
-use bossage_runner::{Blend, Cull, Draw, Error, RenderJob, Shader, TargetFormat, resolve};
+use bossage_runner::{Blend, Cull, Draw, Error, RenderJob, Shader, TargetFormat, push_constants, resolve};
 use bossage_translate::Stage;
 
 use crate::bind::bindings;
@@ -25,8 +25,10 @@ pub(crate) fn run(
     frame: &mut Frame,
 ) -> Result<(), Error> {
     check(job, draw)?;
-    let resolved = resolve(job.name, &[&draw.vertex, &draw.fragment], &draw.resources)?;
-    let mut bindings = bindings::<F32>(job.name, &resolved)?;
+    let shaders = [&draw.vertex, &draw.fragment];
+    let resolved = resolve(job.name, &shaders, &draw.resources)?;
+    let pushed = push_constants(job.name, &shaders, &draw.resources)?;
+    let mut bindings = bindings::<F32>(job.name, &resolved)?.immediate(pushed);
     let vertices = Vertices::run(machine, job.name, draw, &mut bindings)?;
     let triangles = triangles(draw, &vertices.positions(draw)?);
     let size = [job.width, job.height];

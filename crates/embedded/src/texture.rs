@@ -11,10 +11,27 @@ use crate::failure;
 /// A texture with all its levels.
 pub(crate) fn texture(job: &str, data: &TextureData) -> Result<Texture, Error> {
     let dimension = match data.dimension {
-        TextureDimension::Plane => Dimension::D2,
-        TextureDimension::Cube => Dimension::Cube,
+        TextureDimension::Line => Dimension::D1,
+        TextureDimension::Plane | TextureDimension::Array(_) => Dimension::D2,
+        TextureDimension::Cube | TextureDimension::CubeArray(_) => Dimension::Cube,
+        TextureDimension::Volume(_) => Dimension::D3,
     };
-    let format = match data.format {
+    let format = format(data.format);
+    let (first, rest) = data.levels.split_first().ok_or_else(|| Error::Texture {
+        name: job.to_owned(),
+        problem: "it has no level".to_owned(),
+    })?;
+    let size = [data.width, data.height, data.dimension.slices(0)];
+    let whole = Texture::new(dimension, format, size, data.dimension.layers(), first.clone());
+    let chain = rest.iter().fold(whole, |texture, level| {
+        texture.and_then(|texture| texture.with_level(level.clone()))
+    });
+    chain.map_err(|refusal| failure::of_job(job, refusal))
+}
+
+/// A format.
+pub(crate) fn format(format: JobFormat) -> TexelFormat {
+    match format {
         JobFormat::R8Unorm => TexelFormat::R8Unorm,
         JobFormat::R16Unorm => TexelFormat::R16Unorm,
         JobFormat::Rg8Unorm => TexelFormat::Rg8Unorm,
@@ -27,17 +44,21 @@ pub(crate) fn texture(job: &str, data: &TextureData) -> Result<Texture, Error> {
         JobFormat::Rgba16Snorm => TexelFormat::Rgba16Snorm,
         JobFormat::Rgba32Float => TexelFormat::Rgba32Float,
         JobFormat::R32Float => TexelFormat::R32Float,
-    };
-    let (first, rest) = data.levels.split_first().ok_or_else(|| Error::Texture {
-        name: job.to_owned(),
-        problem: "it has no level".to_owned(),
-    })?;
-    let size = [data.width, data.height, 1];
-    let whole = Texture::new(dimension, format, size, data.dimension.layers(), first.clone());
-    let chain = rest.iter().fold(whole, |texture, level| {
-        texture.and_then(|texture| texture.with_level(level.clone()))
-    });
-    chain.map_err(|refusal| failure::of_job(job, refusal))
+        JobFormat::Rg32Float => TexelFormat::Rg32Float,
+        JobFormat::Rgba16Float => TexelFormat::Rgba16Float,
+        JobFormat::Rgba8Uint => TexelFormat::Rgba8Uint,
+        JobFormat::Rgba8Sint => TexelFormat::Rgba8Sint,
+        JobFormat::Rgba16Uint => TexelFormat::Rgba16Uint,
+        JobFormat::Rgba16Sint => TexelFormat::Rgba16Sint,
+        JobFormat::R32Uint => TexelFormat::R32Uint,
+        JobFormat::R32Sint => TexelFormat::R32Sint,
+        JobFormat::Rg32Uint => TexelFormat::Rg32Uint,
+        JobFormat::Rg32Sint => TexelFormat::Rg32Sint,
+        JobFormat::Rgba32Uint => TexelFormat::Rgba32Uint,
+        JobFormat::Rgba32Sint => TexelFormat::Rgba32Sint,
+        JobFormat::Bgra8Unorm => TexelFormat::Bgra8Unorm,
+        JobFormat::Depth16Unorm => TexelFormat::Depth16Unorm,
+    }
 }
 
 /// A sampler.

@@ -14,7 +14,7 @@ use crate::device::Device;
 use crate::error::Error;
 use crate::layout;
 use crate::pipeline;
-use crate::resolve::{Resolved, Value, resolve};
+use crate::resolve::{Resolved, Value, push_constants, resolve};
 use crate::resources::{BufferData, Resources};
 use crate::texture::{SamplerSettings, TextureData};
 use crate::upload;
@@ -23,6 +23,8 @@ use crate::upload;
 enum Resource {
     Buffer(wgpu::Buffer),
     View(wgpu::TextureView),
+    /// With the texture, which may be read back.
+    Stored(wgpu::TextureView, wgpu::Texture),
     Sampler(wgpu::Sampler),
 }
 
@@ -30,7 +32,7 @@ impl Resource {
     fn wgpu(&self) -> wgpu::BindingResource<'_> {
         match self {
             Self::Buffer(buffer) => buffer.as_entire_binding(),
-            Self::View(view) => wgpu::BindingResource::TextureView(view),
+            Self::View(view) | Self::Stored(view, _) => wgpu::BindingResource::TextureView(view),
             Self::Sampler(sampler) => wgpu::BindingResource::Sampler(sampler),
         }
     }
@@ -52,6 +54,16 @@ pub(crate) struct Bound {
     pub(crate) layout: Layout,
     pub(crate) groups: Vec<Option<wgpu::BindGroup>>,
     pub(crate) written: Vec<Written>,
+    pub(crate) stored: Vec<Stored>,
+    pub(crate) push_constants: Vec<u8>,
+}
+
+/// A texture that the shader may have written.
+#[derive(Debug)]
+pub(crate) struct Stored {
+    pub(crate) name: String,
+    pub(crate) texture: wgpu::Texture,
+    pub(crate) texel_bytes: u32,
 }
 
 /// What a job binds, on its way to the device.
@@ -71,6 +83,8 @@ pub(crate) fn bind(
     resources: &Resources<'_>,
 ) -> Result<Bound, Error> {
     let resolved = resolve(job, shaders, resources)?;
+    let push_constants = push_constants(job, shaders, resources)?;
+    check_push_constants(device, job, &push_constants)?;
     let unchecked = shaders.iter().any(|shader| matches!(shader.code, Code::Spirv(_)));
     let binder = Binder {
         device,
@@ -78,13 +92,27 @@ pub(crate) fn bind(
         resources,
         unchecked,
     };
-    device.scoped(job, || binder.bind(&resolved))
+    device.scoped(job, || binder.bind(&resolved, push_constants))
+}
+
+fn check_push_constants(device: &Device, job: &str, bytes: &[u8]) -> Result<(), Error> {
+    if bytes.is_empty() {
+        return Ok(());
+    }
+    device.require(job, wgpu::Features::IMMEDIATES, "push constants")?;
+    let limit = u64::from(device.limits().max_immediate_size);
+    device.within(
+        job,
+        "the size of the push constants in bytes",
+        bytes.len() as u64,
+        limit,
+    )
 }
 
 impl Binder<'_> {
-    fn bind(&self, resolved: &[Resolved<'_>]) -> Result<Bound, Error> {
+    fn bind(&self, resolved: &[Resolved<'_>], push_constants: Vec<u8>) -> Result<Bound, Error> {
         let mut made = Made::new();
-        let mut written = Vec::new();
+        let (mut written, mut stored) = (Vec::new(), Vec::new());
         for one in resolved {
             let (ty, resource) = self.resource(one)?;
             if let (Kind::StorageBuffer, Resource::Buffer(buffer)) = (one.binding.kind, &resource) {
@@ -93,17 +121,33 @@ impl Binder<'_> {
                     buffer: buffer.clone(),
                 });
             }
+            if let (Value::StorageTexture(data), Resource::Stored(_, texture)) = (&one.value, &resource)
+                && layout::is_written(one.binding)
+            {
+                stored.push(Stored {
+                    name: one.binding.name.clone(),
+                    texture: texture.clone(),
+                    texel_bytes: data.format.texel_bytes() as u32,
+                });
+            }
             let stages = one.stages.iter().map(|stage| pipeline::visibility(*stage));
             let visibility = stages.fold(wgpu::ShaderStages::NONE, |all, stage| all | stage);
             made.insert(one.place, (entry(one.place.1, visibility, ty), resource));
         }
         self.fill_gaps(&mut made);
-        let layout = pipeline::layout(self.device, self.job, layout_entries(&made))?;
+        let layout = pipeline::layout(
+            self.device,
+            self.job,
+            layout_entries(&made),
+            push_constants.len() as u32,
+        )?;
         let groups = self.groups(&layout, &made);
         Ok(Bound {
             layout,
             groups,
             written,
+            stored,
+            push_constants,
         })
     }
 
@@ -161,7 +205,8 @@ impl Binder<'_> {
                 self.buffer(resolved, *data, wgpu::BufferUsages::STORAGE, limit)
             }
             Value::Texture(data) => self.texture(resolved, data),
-            Value::Sampler(settings) => Ok(self.sampler(settings)),
+            Value::StorageTexture(data) => self.storage_texture(resolved, data),
+            Value::Sampler(settings) => Ok(self.sampler(settings, resolved.binding.kind)),
         }
     }
 
@@ -189,9 +234,21 @@ impl Binder<'_> {
     ) -> Result<(wgpu::BindingType, Resource), Error> {
         let filterable = !data.format.is_float() || self.device.filters_floats();
         self.check_filtering(filterable)?;
-        let ty = layout::texture_type(data.dimension, filterable);
-        let view = upload::texture(self.device, self.job, &resolved.binding.name, data)?;
-        Ok((ty, Resource::View(view)))
+        let ty = layout::texture_type(resolved.binding.kind, data, filterable);
+        let usage = wgpu::TextureUsages::TEXTURE_BINDING;
+        let texture = upload::texture(self.device, self.job, &resolved.binding.name, data, usage)?;
+        Ok((ty, Resource::View(upload::view(&texture, data))))
+    }
+
+    fn storage_texture(
+        &self,
+        resolved: &Resolved<'_>,
+        data: &TextureData,
+    ) -> Result<(wgpu::BindingType, Resource), Error> {
+        let ty = layout::storage_type(resolved.binding, data);
+        let usage = wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let texture = upload::texture(self.device, self.job, &resolved.binding.name, data, usage)?;
+        Ok((ty, Resource::Stored(upload::view(&texture, data), texture)))
     }
 
     /// wgpu checks what a shader filters, unless the shader is passed through: then the job may have no filtering sampler.
@@ -211,12 +268,15 @@ impl Binder<'_> {
         )
     }
 
-    fn sampler(&self, settings: &SamplerSettings) -> (wgpu::BindingType, Resource) {
+    fn sampler(&self, settings: &SamplerSettings, kind: Kind) -> (wgpu::BindingType, Resource) {
+        let compares = kind == Kind::ComparisonSampler;
         let ty = match settings.is_filtering() {
+            _ if compares => wgpu::SamplerBindingType::Comparison,
             true => wgpu::SamplerBindingType::Filtering,
             false => wgpu::SamplerBindingType::NonFiltering,
         };
-        let sampler = upload::sampler(self.device, self.job, settings);
+        let compare = compares.then_some(wgpu::CompareFunction::LessEqual);
+        let sampler = upload::sampler(self.device, self.job, settings, compare);
         (wgpu::BindingType::Sampler(ty), Resource::Sampler(sampler))
     }
 }

@@ -61,6 +61,9 @@ pub(crate) struct Layout {
     pub(crate) pipeline: wgpu::PipelineLayout,
 }
 
+/// The entries of each group, and the bytes of push constants.
+pub(crate) type LayoutKey = (Vec<Vec<wgpu::BindGroupLayoutEntry>>, u32);
+
 /// One stage of a pipeline.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct StageKey {
@@ -72,7 +75,7 @@ pub(crate) struct StageKey {
 #[derive(Debug, Default)]
 pub(crate) struct Caches {
     pub(crate) modules: Cache<ModuleKey, wgpu::ShaderModule>,
-    pub(crate) layouts: Cache<Vec<Vec<wgpu::BindGroupLayoutEntry>>, Layout>,
+    pub(crate) layouts: Cache<LayoutKey, Layout>,
     pub(crate) compute: Cache<(StageKey, wgpu::PipelineLayout), wgpu::ComputePipeline>,
     pub(crate) render: Cache<crate::pipeline::RenderKey, wgpu::RenderPipeline>,
 }

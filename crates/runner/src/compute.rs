@@ -11,6 +11,7 @@ use crate::code::Shader;
 use crate::device::Device;
 use crate::error::Error;
 use crate::machine::Machine;
+use crate::readback::PictureCopy;
 use crate::resources::Resources;
 use crate::{layout, pipeline, readback};
 
@@ -27,11 +28,13 @@ pub struct ComputeJob<'a> {
     pub workgroups: [u32; 3],
 }
 
-/// What a compute job left in its writable buffers.
+/// What a compute job left in its writable buffers and textures.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ComputeOutput {
     /// The bytes, by binding name.
     pub buffers: BTreeMap<String, Vec<u8>>,
+    /// The texels of written textures, tightly packed, by binding name.
+    pub textures: BTreeMap<String, Vec<u8>>,
 }
 
 impl ComputeOutput {
@@ -109,6 +112,9 @@ impl PreparedCompute {
         for (index, group) in (0..).zip(&self.bound.groups) {
             pass.set_bind_group(index, group.as_ref(), &[]);
         }
+        if !self.bound.push_constants.is_empty() {
+            pass.set_immediates(0, &self.bound.push_constants);
+        }
         let [x, y, z] = self.workgroups;
         for _ in 0..repetitions {
             pass.dispatch_workgroups(x, y, z);
@@ -121,11 +127,25 @@ impl PreparedCompute {
                 .device
                 .create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             self.encode(&mut encoder, 1, None);
+            let all = wgpu::TextureAspect::All;
+            let copies: Vec<_> = self
+                .bound
+                .stored
+                .iter()
+                .map(|stored| {
+                    PictureCopy::encode(device, &mut encoder, &stored.texture, all, stored.texel_bytes)
+                })
+                .collect();
             let written: Vec<_> = self.bound.written.iter().map(|written| &written.buffer).collect();
-            let bytes = readback::buffers(device, job, encoder, &written)?;
+            let (bytes, submission) = readback::buffers(device, job, encoder, &written)?;
+            let mut textures = BTreeMap::new();
+            for (stored, copy) in self.bound.stored.iter().zip(&copies) {
+                textures.insert(stored.name.clone(), copy.read(device, job, submission.clone())?);
+            }
             let names = self.bound.written.iter().map(|written| written.name.clone());
             Ok(ComputeOutput {
                 buffers: names.zip(bytes).collect(),
+                textures,
             })
         })
     }

@@ -1,9 +1,9 @@
 //! From the manifest's words to wgpu's: bindings and located values of entry points.
 
-use bossage_translate::manifest::{Binding, Entry, Kind, Texture, Varying};
+use bossage_translate::manifest::{Binding, Entry, Kind, Varying};
 
 use crate::error::Error;
-use crate::texture::TextureDimension;
+use crate::texture::{TexelFormat, TextureData};
 
 /// A vertex attribute at a location, of 32-bit floats.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -105,46 +105,80 @@ pub(crate) fn buffer_type(kind: Kind) -> Option<wgpu::BindingType> {
     })
 }
 
-/// wgpu's type of a bound texture of floats.
-pub(crate) fn texture_type(dimension: TextureDimension, filterable: bool) -> wgpu::BindingType {
+/// wgpu's type of a bound texture.
+pub(crate) fn texture_type(kind: Kind, data: &TextureData, filterable: bool) -> wgpu::BindingType {
+    let sample_type = match (kind, data.format.sample_type()) {
+        (Kind::DepthTexture, _) => wgpu::TextureSampleType::Depth,
+        (_, "u32") => wgpu::TextureSampleType::Uint,
+        (_, "i32") => wgpu::TextureSampleType::Sint,
+        _ => wgpu::TextureSampleType::Float { filterable },
+    };
     wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable },
-        view_dimension: match dimension {
-            TextureDimension::Plane => wgpu::TextureViewDimension::D2,
-            TextureDimension::Cube => wgpu::TextureViewDimension::Cube,
-        },
+        sample_type,
+        view_dimension: data.dimension.view(),
         multisampled: false,
     }
 }
 
-/// Whether a bound texture of floats is a plane or a cube.
-pub(crate) fn texture_dimension(entry: &Entry, binding: &Binding) -> Result<TextureDimension, Error> {
+/// wgpu's type of a bound storage texture.
+pub(crate) fn storage_type(binding: &Binding, data: &TextureData) -> wgpu::BindingType {
+    let access = match access(binding) {
+        "read" => wgpu::StorageTextureAccess::ReadOnly,
+        "write" => wgpu::StorageTextureAccess::WriteOnly,
+        "atomic" => wgpu::StorageTextureAccess::Atomic,
+        _ => wgpu::StorageTextureAccess::ReadWrite,
+    };
+    wgpu::BindingType::StorageTexture {
+        access,
+        format: data.format.wgpu(),
+        view_dimension: data.dimension.view(),
+    }
+}
+
+/// Whether a shader may write a bound texture.
+pub(crate) fn is_written(binding: &Binding) -> bool {
+    binding.kind == Kind::StorageTexture && access(binding) != "read"
+}
+
+fn access(binding: &Binding) -> &str {
     let texture = binding.texture.as_ref();
-    let texture = texture.ok_or_else(|| {
+    texture
+        .and_then(|texture| texture.access.as_deref())
+        .unwrap_or_default()
+}
+
+/// Why a texture cannot stand at a binding, if it cannot.
+pub(crate) fn misfit_of_texture(
+    entry: &Entry,
+    binding: &Binding,
+    data: &TextureData,
+) -> Result<Option<String>, Error> {
+    let texture = binding.texture.as_ref().ok_or_else(|| {
         misfit(
             entry,
             &binding.name,
             "the manifest doesn't describe it".to_owned(),
         )
     })?;
-    dimension(texture).ok_or_else(|| {
-        misfit(
+    if texture.multisampled {
+        return Err(misfit(
             entry,
             &binding.name,
             format!("the runner has no textures of type {}", binding.ty),
-        )
-    })
-}
-
-fn dimension(texture: &Texture) -> Option<TextureDimension> {
-    if texture.arrayed || texture.multisampled || texture.sample_type != "f32" {
-        return None;
+        ));
     }
-    match texture.dimension.as_str() {
-        "2d" => Some(TextureDimension::Plane),
-        "cube" => Some(TextureDimension::Cube),
-        _ => None,
+    let shape = (texture.dimension.as_str(), texture.arrayed);
+    let is_depth = data.format == TexelFormat::Depth16Unorm;
+    if shape != data.dimension.words() {
+        return Ok(Some(format!("{:?} texture", data.dimension).to_lowercase()));
     }
+    let format = texture.format.as_deref();
+    let fits = match binding.kind {
+        Kind::DepthTexture => is_depth,
+        Kind::StorageTexture => format == Some(format!("{:?}", data.format).to_lowercase().as_str()),
+        _ => !is_depth && texture.sample_type == data.format.sample_type(),
+    };
+    Ok((!fits).then(|| format!("texture of {:?}", data.format)))
 }
 
 /// An entry of the manifest that the runner can't serve.

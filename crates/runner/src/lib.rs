@@ -14,8 +14,8 @@
 //! Outputs hold a [sentinel](SENTINEL) before a shader runs, so what it never wrote can be told. Every failure is an
 //! [`Error`] of the job that met it; the device goes on. A [`Device`] may be shared between threads.
 //!
-//! What this crate doesn't do: check SPIR-V (a driver may crash on what isn't valid), bind storage textures or depth
-//! textures, multisample, or draw to integer targets.
+//! What this crate doesn't do: check SPIR-V (a driver may crash on what isn't valid), multisample, bind multisampled textures, or read back what a
+//! drawn stage stores.
 //!
 //! ```
 //! use bossage_runner::{AdapterSelector, Code, Device, Error, run_probe};
@@ -80,8 +80,8 @@ pub use mesh::{Attribute, Mesh};
 pub use picture::Picture;
 pub use probe::{INPUTS, OUTPUTS, ProbeJob, run_probe};
 pub use render::{Cull, Depth, Draw, RenderJob, RenderOutput};
-pub use resolve::{Resolved, Value, resolve};
-pub use resources::{BufferData, Resources, slot};
+pub use resolve::{Resolved, Value, push_constants, resolve};
+pub use resources::{BufferData, PUSH_CONSTANTS, Resources, slot};
 pub use sentinel::{SENTINEL, SENTINEL_BITS, is_unwritten, unwritten};
 pub use target::{Blend, Clear, RenderTarget, TargetFormat};
 pub use texture::{AddressMode, Filter, SamplerSettings, TexelFormat, TextureData, TextureDimension};

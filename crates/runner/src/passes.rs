@@ -265,6 +265,9 @@ impl PreparedDraw {
         for (index, group) in (0..).zip(&self.bound.groups) {
             pass.set_bind_group(index, group.as_ref(), &[]);
         }
+        if !self.bound.push_constants.is_empty() {
+            pass.set_immediates(0, &self.bound.push_constants);
+        }
         for (slot, buffer) in (0..).zip(&self.attributes) {
             pass.set_vertex_buffer(slot, buffer.slice(..));
         }

@@ -55,32 +55,36 @@ fn module(device: &Device, job: &str, shader: &Shader<'_>) -> Result<wgpu::Shade
     })
 }
 
-/// The layout of these groups; an empty group is none.
+/// The layout of these groups, an empty one of which is none, and of so many bytes of push constants.
 pub(crate) fn layout(
     device: &Device,
     job: &str,
     groups: Vec<Vec<wgpu::BindGroupLayoutEntry>>,
+    immediate_size: u32,
 ) -> Result<Layout, Error> {
-    device.caches.layouts.get(groups, |groups| {
-        device.scoped(job, || {
-            let make = |entries: &Vec<wgpu::BindGroupLayoutEntry>| {
-                let descriptor = wgpu::BindGroupLayoutDescriptor {
-                    label: Some(job),
-                    entries,
+    device
+        .caches
+        .layouts
+        .get((groups, immediate_size), |(groups, _)| {
+            device.scoped(job, || {
+                let make = |entries: &Vec<wgpu::BindGroupLayoutEntry>| {
+                    let descriptor = wgpu::BindGroupLayoutDescriptor {
+                        label: Some(job),
+                        entries,
+                    };
+                    (!entries.is_empty()).then(|| device.device.create_bind_group_layout(&descriptor))
                 };
-                (!entries.is_empty()).then(|| device.device.create_bind_group_layout(&descriptor))
-            };
-            let groups: Vec<_> = groups.iter().map(make).collect();
-            let pipeline = device
-                .device
-                .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                    label: Some(job),
-                    bind_group_layouts: &groups.iter().map(Option::as_ref).collect::<Vec<_>>(),
-                    immediate_size: 0,
-                });
-            Ok(Layout { groups, pipeline })
+                let groups: Vec<_> = groups.iter().map(make).collect();
+                let pipeline = device
+                    .device
+                    .create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                        label: Some(job),
+                        bind_group_layouts: &groups.iter().map(Option::as_ref).collect::<Vec<_>>(),
+                        immediate_size,
+                    });
+                Ok(Layout { groups, pipeline })
+            })
         })
-    })
 }
 
 /// A compute pipeline.

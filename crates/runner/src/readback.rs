@@ -70,11 +70,12 @@ pub(crate) fn buffers(
     job: &str,
     mut encoder: wgpu::CommandEncoder,
     sources: &[&wgpu::Buffer],
-) -> Result<Vec<Vec<u8>>, Error> {
+) -> Result<(Vec<Vec<u8>>, wgpu::SubmissionIndex), Error> {
     let total: u64 = sources.iter().map(|buffer| buffer.size()).sum();
     if total == 0 {
         let submission = device.queue.submit([encoder.finish()]);
-        return device.wait(job, submission).map(|()| Vec::new());
+        device.wait(job, submission.clone())?;
+        return Ok((Vec::new(), submission));
     }
     device.within(
         job,
@@ -89,7 +90,7 @@ pub(crate) fn buffers(
         offset += source.size();
     }
     let submission = device.queue.submit([encoder.finish()]);
-    let bytes = staging.read(device, job, submission)?;
+    let bytes = staging.read(device, job, submission.clone())?;
     let mut rest = bytes.as_slice();
     let mut taken = Vec::with_capacity(sources.len());
     for source in sources {
@@ -97,10 +98,10 @@ pub(crate) fn buffers(
         taken.push(own.to_vec());
         rest = after;
     }
-    Ok(taken)
+    Ok((taken, submission))
 }
 
-/// A picture on its way back: rows are padded in the staging buffer.
+/// A texture's first level on its way back, layer by layer: rows are padded in the staging buffer.
 pub(crate) struct PictureCopy {
     staging: Staging,
     row_bytes: u32,
@@ -118,7 +119,8 @@ impl PictureCopy {
     ) -> Self {
         let row_bytes = texture.width() * texel_bytes;
         let padded = row_bytes.next_multiple_of(ROW_ALIGNMENT);
-        let staging = Staging::new(device, "picture", u64::from(padded) * u64::from(texture.height()));
+        let rows = texture.height() * texture.depth_or_array_layers();
+        let staging = Staging::new(device, "picture", u64::from(padded) * u64::from(rows));
         let from = wgpu::TexelCopyTextureInfo {
             texture,
             mip_level: 0,
@@ -128,7 +130,7 @@ impl PictureCopy {
         let layout = wgpu::TexelCopyBufferLayout {
             offset: 0,
             bytes_per_row: Some(padded),
-            rows_per_image: None,
+            rows_per_image: Some(texture.height()),
         };
         let to = wgpu::TexelCopyBufferInfo {
             buffer: staging.buffer(),

@@ -13,7 +13,7 @@ use bossage_translate::manifest::{Binding, Block, Entry, Kind};
 use crate::code::Shader;
 use crate::error::Error;
 use crate::layout;
-use crate::resources::{BufferData, Resources, slot};
+use crate::resources::{BufferData, PUSH_CONSTANTS, Resources, slot};
 use crate::texture::{SamplerSettings, TextureData};
 use crate::uniforms;
 
@@ -26,7 +26,9 @@ pub enum Value<'a> {
     Storage(BufferData<'a>),
     /// A texture of the binding's dimension, whose levels are whole.
     Texture(&'a TextureData),
-    /// A sampler.
+    /// A texture of one level that the shader loads from or stores to.
+    StorageTexture(&'a TextureData),
+    /// A sampler; one that compares does so by "less or equal".
     Sampler(SamplerSettings),
 }
 
@@ -65,7 +67,7 @@ pub fn resolve<'a>(
     resources: &Resources<'a>,
 ) -> Result<Vec<Resolved<'a>>, Error> {
     let slots = merge(job, shaders)?;
-    check_buffers_are_known(job, &slots, resources)?;
+    check_buffers_are_known(job, shaders, &slots, resources)?;
     let resolver = Resolver { job, resources };
     let one = |(place, slot): ((u32, u32), Slot<'a>)| {
         Ok(Resolved {
@@ -77,6 +79,36 @@ pub fn resolve<'a>(
         })
     };
     slots.into_iter().map(one).collect()
+}
+
+/// The bytes of the push constants that these stages of one pipeline share; none where they have none.
+///
+/// # Errors
+/// [`Error::Length`] when as many bytes as the larger declaration has are not given.
+pub fn push_constants(
+    job: &str,
+    shaders: &[&Shader<'_>],
+    resources: &Resources<'_>,
+) -> Result<Vec<u8>, Error> {
+    let all = shaders
+        .iter()
+        .filter_map(|shader| shader.entry.immediates.as_ref());
+    let Some(pushed) = all.max_by_key(|pushed| pushed.size) else {
+        return Ok(Vec::new());
+    };
+    let mut keys = [pushed.name.as_str(), PUSH_CONSTANTS].into_iter();
+    let given = keys.find_map(|key| resources.buffers.get(key));
+    let given = given.map_or_else(Vec::new, |data| data.bytes().into_owned());
+    let expected = pushed.size.next_multiple_of(4) as usize;
+    if given.len() == expected {
+        return Ok(given);
+    }
+    Err(Error::Length {
+        job: job.to_owned(),
+        what: format!("push constants `{}` in bytes", pushed.name),
+        given: given.len(),
+        expected,
+    })
 }
 
 fn merge<'a>(job: &str, shaders: &[&Shader<'a>]) -> Result<Slots<'a>, Error> {
@@ -134,8 +166,20 @@ fn block<'a>(entry: &'a Entry, binding: &Binding) -> Option<&'a Block> {
 }
 
 /// A storage buffer that goes nowhere is a mistake; values, textures and samplers beyond what is asked for are not.
-fn check_buffers_are_known(job: &str, slots: &Slots<'_>, resources: &Resources<'_>) -> Result<(), Error> {
-    let is_known = |key: &String| slots.values().any(|slot| keys(slot.binding).contains(key));
+fn check_buffers_are_known(
+    job: &str,
+    shaders: &[&Shader<'_>],
+    slots: &Slots<'_>,
+    resources: &Resources<'_>,
+) -> Result<(), Error> {
+    let is_pushed = |key: &String| {
+        let mut all = shaders
+            .iter()
+            .filter_map(|shader| shader.entry.immediates.as_ref());
+        all.any(|pushed| pushed.name == *key || key == PUSH_CONSTANTS)
+    };
+    let is_known =
+        |key: &String| is_pushed(key) || slots.values().any(|slot| keys(slot.binding).contains(key));
     match resources.buffers.keys().find(|key| !is_known(key)) {
         None => Ok(()),
         Some(name) => Err(Error::UnknownResource {
@@ -165,14 +209,11 @@ impl<'a> Resolver<'_, 'a> {
         match slot.binding.kind {
             Kind::UniformBuffer => self.uniform(slot),
             Kind::ReadOnlyStorageBuffer | Kind::StorageBuffer => self.storage(slot),
-            Kind::Texture => self.texture(slot),
-            Kind::Sampler => look_up(&self.resources.samplers, slot.binding)
+            Kind::Texture | Kind::DepthTexture => self.texture(slot).map(Value::Texture),
+            Kind::StorageTexture => self.texture(slot).map(Value::StorageTexture),
+            Kind::Sampler | Kind::ComparisonSampler => look_up(&self.resources.samplers, slot.binding)
                 .map(Value::Sampler)
                 .ok_or_else(|| self.missing(slot)),
-            Kind::DepthTexture | Kind::StorageTexture | Kind::ComparisonSampler => {
-                let problem = format!("the runner can't bind a {}", layout::describe(slot.binding));
-                Err(layout::misfit(slot.entry, &slot.binding.name, problem))
-            }
         }
     }
 
@@ -211,14 +252,14 @@ impl<'a> Resolver<'_, 'a> {
         })
     }
 
-    fn texture(&self, slot: &Slot<'a>) -> Result<Value<'a>, Error> {
+    fn texture(&self, slot: &Slot<'a>) -> Result<&'a TextureData, Error> {
         let data: &TextureData =
             look_up(&self.resources.textures, slot.binding).ok_or_else(|| self.missing(slot))?;
-        if data.dimension != layout::texture_dimension(slot.entry, slot.binding)? {
-            return Err(self.wrong(slot, format!("{:?} texture", data.dimension).to_lowercase()));
+        if let Some(given) = layout::misfit_of_texture(slot.entry, slot.binding, data)? {
+            return Err(self.wrong(slot, given));
         }
         data.validate(&slot.binding.name)?;
-        Ok(Value::Texture(data))
+        Ok(data)
     }
 
     fn missing(&self, slot: &Slot<'_>) -> Error {

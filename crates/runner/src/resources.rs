@@ -48,13 +48,17 @@ pub struct Resources<'a> {
     /// Values of uniforms: `object.clip_from_local`, or just the variable's name where it is no struct. Matrices column
     /// by column. Values that no shader asks for are left out; a member that no value is given for is an error.
     pub uniforms: BTreeMap<String, Vec<f32>>,
-    /// Storage buffers. A uniform buffer may stand here as well, as its bytes: then no values of its members are looked for.
+    /// Storage buffers. A uniform buffer may stand here as well, as its bytes: then no values of its members are looked for. So do push
+    /// constants, by their name or by [`PUSH_CONSTANTS`].
     pub buffers: BTreeMap<String, BufferData<'a>>,
     /// Textures.
     pub textures: BTreeMap<String, &'a TextureData>,
     /// Samplers.
     pub samplers: BTreeMap<String, SamplerSettings>,
 }
+
+/// The key of push constants that have no name.
+pub const PUSH_CONSTANTS: &str = "push constants";
 
 /// The key of a resource that has no name.
 #[must_use]

@@ -31,54 +31,58 @@ pub enum TexelFormat {
     Rgba32Float,
     /// One float.
     R32Float,
+    /// Two floats.
+    Rg32Float,
+    /// Four half floats.
+    Rgba16Float,
+    /// Four unsigned bytes.
+    Rgba8Uint,
+    /// Four signed bytes.
+    Rgba8Sint,
+    /// Four unsigned 16-bit integers.
+    Rgba16Uint,
+    /// Four signed 16-bit integers.
+    Rgba16Sint,
+    /// One unsigned 32-bit integer.
+    R32Uint,
+    /// One signed 32-bit integer.
+    R32Sint,
+    /// Two unsigned 32-bit integers.
+    Rg32Uint,
+    /// Two signed 32-bit integers.
+    Rg32Sint,
+    /// Four unsigned 32-bit integers.
+    Rgba32Uint,
+    /// Four signed 32-bit integers.
+    Rgba32Sint,
+    /// Four bytes, each read as byte / 255, the third channel first.
+    Bgra8Unorm,
+    /// A depth: one 16-bit integer, read as integer / 65535.
+    Depth16Unorm,
 }
 
 impl TexelFormat {
     /// Bytes a texel.
     #[must_use]
     pub fn texel_bytes(self) -> usize {
-        match self {
-            Self::R8Unorm => 1,
-            Self::R16Unorm | Self::Rg8Unorm | Self::Rg8Snorm => 2,
-            Self::Rgba8Unorm | Self::Rgba8Snorm | Self::Rg16Unorm | Self::Rg16Snorm | Self::R32Float => 4,
-            Self::Rgba16Unorm | Self::Rgba16Snorm => 8,
-            Self::Rgba32Float => 16,
-        }
+        // Every format here has one plane, whose texels have a size.
+        self.wgpu()
+            .block_copy_size(None)
+            .map_or(0, |bytes| bytes as usize)
     }
 
     /// Whether its components are 32-bit floats, which not every device filters.
     #[must_use]
     pub fn is_float(self) -> bool {
-        match self {
-            Self::Rgba32Float | Self::R32Float => true,
-            Self::R8Unorm
-            | Self::R16Unorm
-            | Self::Rg8Unorm
-            | Self::Rg8Snorm
-            | Self::Rg16Unorm
-            | Self::Rg16Snorm
-            | Self::Rgba8Unorm
-            | Self::Rgba8Snorm
-            | Self::Rgba16Unorm
-            | Self::Rgba16Snorm => false,
-        }
+        let unfilterable = wgpu::TextureSampleType::Float { filterable: false };
+        self.wgpu().sample_type(None, None) == Some(unfilterable)
     }
 
     /// Whether its components are 16-bit normalised integers, which not every device has.
     #[must_use]
     pub fn is_norm16(self) -> bool {
-        match self {
-            Self::R16Unorm | Self::Rg16Unorm | Self::Rg16Snorm | Self::Rgba16Unorm | Self::Rgba16Snorm => {
-                true
-            }
-            Self::R8Unorm
-            | Self::Rg8Unorm
-            | Self::Rg8Snorm
-            | Self::Rgba8Unorm
-            | Self::Rgba8Snorm
-            | Self::Rgba32Float
-            | Self::R32Float => false,
-        }
+        let features = self.wgpu().required_features();
+        features.contains(wgpu::Features::TEXTURE_FORMAT_16BIT_NORM)
     }
 
     pub(crate) fn wgpu(self) -> wgpu::TextureFormat {
@@ -95,17 +99,49 @@ impl TexelFormat {
             Self::Rgba16Snorm => wgpu::TextureFormat::Rgba16Snorm,
             Self::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
             Self::R32Float => wgpu::TextureFormat::R32Float,
+            Self::Rg32Float => wgpu::TextureFormat::Rg32Float,
+            Self::Rgba16Float => wgpu::TextureFormat::Rgba16Float,
+            Self::Rgba8Uint => wgpu::TextureFormat::Rgba8Uint,
+            Self::Rgba8Sint => wgpu::TextureFormat::Rgba8Sint,
+            Self::Rgba16Uint => wgpu::TextureFormat::Rgba16Uint,
+            Self::Rgba16Sint => wgpu::TextureFormat::Rgba16Sint,
+            Self::R32Uint => wgpu::TextureFormat::R32Uint,
+            Self::R32Sint => wgpu::TextureFormat::R32Sint,
+            Self::Rg32Uint => wgpu::TextureFormat::Rg32Uint,
+            Self::Rg32Sint => wgpu::TextureFormat::Rg32Sint,
+            Self::Rgba32Uint => wgpu::TextureFormat::Rgba32Uint,
+            Self::Rgba32Sint => wgpu::TextureFormat::Rgba32Sint,
+            Self::Bgra8Unorm => wgpu::TextureFormat::Bgra8Unorm,
+            Self::Depth16Unorm => wgpu::TextureFormat::Depth16Unorm,
+        }
+    }
+
+    /// What a shader reads from it, in the manifest's words: `f32`, `u32` or `i32`.
+    #[must_use]
+    pub fn sample_type(self) -> &'static str {
+        match self.wgpu().sample_type(None, None) {
+            Some(wgpu::TextureSampleType::Uint) => "u32",
+            Some(wgpu::TextureSampleType::Sint) => "i32",
+            Some(wgpu::TextureSampleType::Float { .. } | wgpu::TextureSampleType::Depth) | None => "f32",
         }
     }
 }
 
-/// How the layers of a texture are read.
+/// How the texels of a texture are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum TextureDimension {
+    /// One row.
+    Line,
     /// One layer.
     Plane,
+    /// So many layers.
+    Array(u32),
     /// Six layers: +x, −x, +y, −y, +z, −z.
     Cube,
+    /// So many cubes, one after the other.
+    CubeArray(u32),
+    /// So many slices, halved from level to level.
+    Volume(u32),
 }
 
 impl TextureDimension {
@@ -113,8 +149,50 @@ impl TextureDimension {
     #[must_use]
     pub fn layers(self) -> u32 {
         match self {
-            Self::Plane => 1,
+            Self::Line | Self::Plane | Self::Volume(_) => 1,
+            Self::Array(layers) => layers,
             Self::Cube => 6,
+            Self::CubeArray(cubes) => 6 * cubes,
+        }
+    }
+
+    /// How many slices a level has.
+    #[must_use]
+    pub fn slices(self, level: u32) -> u32 {
+        match self {
+            Self::Volume(slices) => slices.checked_shr(level).unwrap_or(0).max(1),
+            Self::Line | Self::Plane | Self::Array(_) | Self::Cube | Self::CubeArray(_) => 1,
+        }
+    }
+
+    /// Its shape in the manifest's words, and whether it is an array.
+    pub(crate) fn words(self) -> (&'static str, bool) {
+        match self {
+            Self::Line => ("1d", false),
+            Self::Plane => ("2d", false),
+            Self::Array(_) => ("2d", true),
+            Self::Cube => ("cube", false),
+            Self::CubeArray(_) => ("cube", true),
+            Self::Volume(_) => ("3d", false),
+        }
+    }
+
+    pub(crate) fn view(self) -> wgpu::TextureViewDimension {
+        match self {
+            Self::Line => wgpu::TextureViewDimension::D1,
+            Self::Plane => wgpu::TextureViewDimension::D2,
+            Self::Array(_) => wgpu::TextureViewDimension::D2Array,
+            Self::Cube => wgpu::TextureViewDimension::Cube,
+            Self::CubeArray(_) => wgpu::TextureViewDimension::CubeArray,
+            Self::Volume(_) => wgpu::TextureViewDimension::D3,
+        }
+    }
+
+    pub(crate) fn wgpu(self) -> wgpu::TextureDimension {
+        match self {
+            Self::Line => wgpu::TextureDimension::D1,
+            Self::Plane | Self::Array(_) | Self::Cube | Self::CubeArray(_) => wgpu::TextureDimension::D2,
+            Self::Volume(_) => wgpu::TextureDimension::D3,
         }
     }
 }
@@ -131,10 +209,10 @@ pub struct TextureData {
     pub height: u32,
     /// The texels' format.
     pub format: TexelFormat,
-    /// Plane or cube.
+    /// Its shape.
     pub dimension: TextureDimension,
     /// The levels, largest first, each `max(1, size >> level)` wide and high: rows from v = 0 on, tightly packed, the
-    /// layers one after the other.
+    /// layers or slices one after the other.
     pub levels: Vec<Vec<u8>>,
 }
 
@@ -264,7 +342,17 @@ impl TextureData {
         if self.width == 0 || self.height == 0 {
             return wrong(format!("its size is {} x {}", self.width, self.height));
         }
-        if self.dimension == TextureDimension::Cube && self.width != self.height {
+        let is_cube = matches!(
+            self.dimension,
+            TextureDimension::Cube | TextureDimension::CubeArray(_)
+        );
+        if self.dimension.layers() == 0 || self.dimension == TextureDimension::Volume(0) {
+            return wrong("it has no layer".to_owned());
+        }
+        if self.dimension == TextureDimension::Line && self.height != 1 {
+            return wrong(format!("a line is 1 high, not {}", self.height));
+        }
+        if is_cube && self.width != self.height {
             return wrong(format!(
                 "a cube's faces are square, not {} x {}",
                 self.width, self.height
@@ -292,7 +380,8 @@ impl TextureData {
 
     fn level_bytes(&self, level: u32) -> usize {
         let (width, height) = self.level_size(level);
-        width as usize * height as usize * self.dimension.layers() as usize * self.format.texel_bytes()
+        let layers = self.dimension.layers() * self.dimension.slices(level);
+        width as usize * height as usize * layers as usize * self.format.texel_bytes()
     }
 }
 

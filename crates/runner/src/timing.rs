@@ -261,7 +261,7 @@ impl<'a> Stopwatch<'a> {
         queries: &Queries,
     ) -> Result<f64, Error> {
         encoder.resolve_query_set(&queries.set, 0..2, &queries.resolved, 0);
-        let bytes = readback::buffers(self.device, job.name, encoder, &[&queries.resolved])?;
+        let (bytes, _) = readback::buffers(self.device, job.name, encoder, &[&queries.resolved])?;
         let words = bytes.iter().flat_map(|bytes| bytes.as_chunks::<8>().0);
         let ticks: Vec<u64> = words.map(|word| u64::from_le_bytes(*word)).collect();
         let [begin, end] = ticks[..] else { return Ok(0.0) };

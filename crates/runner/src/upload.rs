@@ -2,7 +2,7 @@
 
 use crate::device::Device;
 use crate::error::Error;
-use crate::texture::{Filter, SamplerSettings, TextureData, TextureDimension};
+use crate::texture::{Filter, SamplerSettings, TextureData};
 
 /// A buffer with these bytes (a multiple of four), which can be read back.
 pub(crate) fn buffer(device: &Device, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
@@ -16,13 +16,14 @@ pub(crate) fn buffer(device: &Device, label: &str, bytes: &[u8], usage: wgpu::Bu
     buffer
 }
 
-/// A view of the whole texture.
+/// A texture with its texels.
 pub(crate) fn texture(
     device: &Device,
     job: &str,
     name: &str,
     data: &TextureData,
-) -> Result<wgpu::TextureView, Error> {
+    usage: wgpu::TextureUsages,
+) -> Result<wgpu::Texture, Error> {
     data.validate(name)?;
     if data.format.is_norm16() {
         let feature = wgpu::Features::TEXTURE_FORMAT_16BIT_NORM;
@@ -40,21 +41,23 @@ pub(crate) fn texture(
         size: extent(data, 0),
         mip_level_count: data.levels.len() as u32,
         sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
+        dimension: data.dimension.wgpu(),
         format: data.format.wgpu(),
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        usage: usage | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
     for (level, bytes) in (0..).zip(&data.levels) {
         write_level(device, &texture, data, level, bytes);
     }
-    Ok(texture.create_view(&wgpu::TextureViewDescriptor {
-        dimension: Some(match data.dimension {
-            TextureDimension::Plane => wgpu::TextureViewDimension::D2,
-            TextureDimension::Cube => wgpu::TextureViewDimension::Cube,
-        }),
+    Ok(texture)
+}
+
+/// A view of the whole texture.
+pub(crate) fn view(texture: &wgpu::Texture, data: &TextureData) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor {
+        dimension: Some(data.dimension.view()),
         ..wgpu::TextureViewDescriptor::default()
-    }))
+    })
 }
 
 fn extent(data: &TextureData, level: u32) -> wgpu::Extent3d {
@@ -62,7 +65,7 @@ fn extent(data: &TextureData, level: u32) -> wgpu::Extent3d {
     wgpu::Extent3d {
         width,
         height,
-        depth_or_array_layers: data.dimension.layers(),
+        depth_or_array_layers: data.dimension.layers() * data.dimension.slices(level),
     }
 }
 
@@ -83,7 +86,12 @@ fn write_level(device: &Device, texture: &wgpu::Texture, data: &TextureData, lev
 }
 
 /// A sampler.
-pub(crate) fn sampler(device: &Device, label: &str, settings: &SamplerSettings) -> wgpu::Sampler {
+pub(crate) fn sampler(
+    device: &Device,
+    label: &str,
+    settings: &SamplerSettings,
+    compare: Option<wgpu::CompareFunction>,
+) -> wgpu::Sampler {
     let address = settings.address.wgpu();
     let filter = match settings.filter {
         Filter::Nearest => wgpu::FilterMode::Nearest,
@@ -101,6 +109,7 @@ pub(crate) fn sampler(device: &Device, label: &str, settings: &SamplerSettings) 
             Filter::Linear => wgpu::MipmapFilterMode::Linear,
         },
         anisotropy_clamp: settings.anisotropy,
+        compare,
         ..wgpu::SamplerDescriptor::default()
     })
 }

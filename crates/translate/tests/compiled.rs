@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use bossage_translate::external::{State, Validator, to_spirv};
+use bossage_translate::external::{LIMITS, State, Validator, run, to_spirv};
 use bossage_translate::{EmitOptions, Shader, ShaderModel, Source, Target, emit, manifest};
 
 mod support;
@@ -130,6 +130,101 @@ fn a_function_of_two_textures_is_refused_for_what_it_is() {
         .map(|_| ())
         .unwrap_err();
     assert!(refused.contains("different textures"), "{refused}");
+}
+
+/// Two images that are the same to HLSL, one of two components and one that is read and written.
+const STORED: &str = "
+    @group(0) @binding(0) var bytes: texture_storage_2d<rgba8unorm, write>;
+    @group(0) @binding(1) var floats: texture_storage_2d<rgba32float, write>;
+    @group(0) @binding(2) var halves: texture_storage_2d<rg16float, write>;
+    @group(1) @binding(0) var counts: texture_storage_2d<r32uint, read_write>;
+    @compute @workgroup_size(1) fn main() {
+        textureStore(bytes, vec2u(0u), vec4f(0.5));
+        textureStore(floats, vec2u(0u), vec4f(0.5));
+        textureStore(halves, vec2u(0u), vec4f(0.5));
+        let count = textureLoad(counts, vec2u(0u)).x;
+        textureStore(counts, vec2u(0u), vec4u(count + 1u));
+    }";
+
+const PUSHED: &str = "
+    struct Pushed { scale: f32, offset: vec2f, weights: array<vec4f, 2> }
+    var<immediate> pushed: Pushed;
+    @group(0) @binding(0) var<uniform> other: vec4f;
+    @group(0) @binding(1) var<storage, read_write> result: array<vec2f>;
+    @compute @workgroup_size(2) fn main(@builtin(local_invocation_index) i: u32) {
+        result[i] = pushed.offset * pushed.scale + pushed.weights[i].xy + other.xy;
+    }";
+
+/// The buffer that stands for them has no place of its own any more, and the other uniforms stay where they were.
+#[test]
+fn push_constants_of_hlsl_are_push_constants() {
+    let Some(tools) = support::tool("dxc") else { return };
+    let shader = Shader::parse("pushed", &Source::Wgsl(PUSHED.to_owned())).unwrap();
+    let emitted = emit(&shader, Target::Hlsl, &options()).unwrap();
+    let described = manifest(&shader, &options(), std::slice::from_ref(&emitted));
+    let made = to_spirv(&emitted, &described.entries[0], &options(), &tools, None).unwrap();
+    assert_valid(&made.bytes);
+    let back = Shader::parse("back", &Source::Spirv(made.bytes)).unwrap();
+    let back = manifest(&back, &EmitOptions::default(), &[]);
+    let pushed = back.entries[0].immediates.as_ref().expect("push constants");
+    let offsets: Vec<u32> = pushed.members.iter().map(|member| member.offset).collect();
+    assert_eq!(offsets.first(), Some(&0));
+    assert!(offsets.contains(&8) && offsets.contains(&16), "{offsets:?}");
+    let places: Vec<_> = back.entries[0]
+        .bindings
+        .iter()
+        .map(|one| (one.group, one.binding))
+        .collect();
+    assert_eq!(places, [(0, 0), (0, 1)]);
+}
+
+/// Group, binding and format of each storage texture in SPIR-V.
+fn stored(spirv: &[u8]) -> Vec<(u32, u32, String)> {
+    let shader =
+        Shader::parse("back", &Source::Spirv(spirv.to_vec())).unwrap_or_else(|error| panic!("{error}"));
+    let manifest = manifest(&shader, &EmitOptions::default(), &[]);
+    let bindings = manifest.entries[0].bindings.iter();
+    let mut all: Vec<_> = bindings
+        .filter_map(|one| Some((one.group, one.binding, one.texture.as_ref()?.format.clone()?)))
+        .collect();
+    all.sort();
+    all
+}
+
+/// Asks `spirv-val`, where it is.
+fn assert_valid(spirv: &[u8]) {
+    let Some(tools) = support::tool("spirv-val") else {
+        return;
+    };
+    let path = tools
+        .iter()
+        .find(|one| one.tool == "spirv-val")
+        .and_then(|one| one.path.clone());
+    let arguments = ["--target-env", "vulkan1.1", "-"].map(str::to_owned);
+    let outcome = run(&path.expect("it is enabled"), &arguments, spirv, &LIMITS).unwrap();
+    assert!(outcome.success, "{}", outcome.output);
+}
+
+#[test]
+fn storage_images_have_the_formats_of_the_source() {
+    let expected = [
+        (0, 0, "rgba8unorm"),
+        (0, 1, "rgba32float"),
+        (0, 2, "rg16float"),
+        (1, 0, "r32uint"),
+    ]
+    .map(|(group, binding, format)| (group, binding, format.to_owned()));
+    let shader = Shader::parse("stored", &Source::Wgsl(STORED.to_owned())).unwrap();
+    for (target, name) in [(Target::Hlsl, "dxc"), (Target::Glsl, "glslangValidator")] {
+        let Some(tools) = support::tool(name) else {
+            continue;
+        };
+        let emitted = emit(&shader, target, &options()).unwrap();
+        let manifest = manifest(&shader, &options(), std::slice::from_ref(&emitted));
+        let made = to_spirv(&emitted, &manifest.entries[0], &options(), &tools, None).unwrap();
+        assert_valid(&made.bytes);
+        assert_eq!(stored(&made.bytes), expected, "{target}");
+    }
 }
 
 #[test]

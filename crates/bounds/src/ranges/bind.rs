@@ -7,7 +7,7 @@ use crate::domain::{Domain, Truth};
 use crate::error::Result;
 use crate::kind::Kind;
 use crate::stage::{Slot, StageInputs};
-use crate::texture::{AddressMode, CompareFunction, Sampler, TexelFormat, Texture};
+use crate::texture::{AddressMode, CompareFunction, Sampler, Texture};
 use std::collections::BTreeMap;
 
 /// What a buffer that the shader only writes holds before: a number that every format has and few formulas return, so that what was
@@ -157,30 +157,21 @@ impl TextureInput {
             * self.samples as usize
     }
 
-    /// The texture with the given channels, four for each texel. Storage formats other than plain 32-bit ones start at zero.
-    fn filled(&self, texels: &[f64]) -> Result<Texture> {
-        let mut bytes = Vec::with_capacity(self.texel_count() * self.format.bytes());
-        let channels = self.format.channels();
-        for texel in texels.chunks(4) {
-            for &x in &texel[..channels] {
-                match self.format {
-                    TexelFormat::Rgba32Float
-                    | TexelFormat::Rg32Float
-                    | TexelFormat::R32Float
-                    | TexelFormat::Depth32Float => {
-                        bytes.extend((x as f32).to_le_bytes());
-                    }
-                    TexelFormat::Rgba32Uint | TexelFormat::Rg32Uint | TexelFormat::R32Uint => {
-                        bytes.extend((x as u32).to_le_bytes());
-                    }
-                    TexelFormat::Rgba32Sint | TexelFormat::Rg32Sint | TexelFormat::R32Sint => {
-                        bytes.extend((x as i32).to_le_bytes());
-                    }
-                    _ => {}
-                }
-            }
-        }
+    /// Its texels as bytes in its format, from four channels each.
+    pub fn bytes(&self, texels: &[f64]) -> Vec<u8> {
+        let mut bytes: Vec<u8> = texels
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .flat_map(|texel| self.format.encode(*texel))
+            .collect();
         bytes.resize(self.texel_count() * self.format.bytes(), 0);
+        bytes
+    }
+
+    /// The texture with the given channels, four for each texel.
+    fn filled(&self, texels: &[f64]) -> Result<Texture> {
+        let bytes = self.bytes(texels);
         let layers = if self.samples > 1 {
             self.samples
         } else {

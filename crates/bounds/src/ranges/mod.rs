@@ -6,6 +6,9 @@
 //! schema = 1
 //! workgroups = [2, 1, 1]                        # compute shaders: how many workgroups run (default 1, 1, 1)
 //!
+//! [overrides]
+//! layers = 16                                   # a pipeline-overridable constant: a number or a truth value
+//!
 //! [ranges]
 //! normal = { unit = true }                      # a stage input by its name: a vector of length one
 //! "tangent.w" = { one_of = [-1, 1] }            # one component of it

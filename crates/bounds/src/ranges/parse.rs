@@ -2,11 +2,12 @@
 
 use super::pattern::Pattern;
 use super::report::{Report, suggestion};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-const TOP: &[&str] = &["schema", "workgroups", "ranges"];
+const TOP: &[&str] = &["schema", "workgroups", "overrides", "ranges"];
 const WORDS: &[&str] = &["lo", "hi", "unit", "one_of", "size"];
 
 /// The most elements of a run-time sized array, and the largest side of a texture, that a sidecar may ask for.
@@ -18,6 +19,7 @@ pub struct Declared {
     pub(crate) file: String,
     pub(crate) text: String,
     pub(crate) workgroups: Option<[u32; 3]>,
+    pub(crate) overrides: BTreeMap<String, f64>,
     pub(crate) entries: Vec<Entry>,
 }
 
@@ -62,6 +64,7 @@ impl Declared {
             file: file.to_owned(),
             text: text.to_owned(),
             workgroups: None,
+            overrides: BTreeMap::new(),
             entries: Vec::new(),
         };
         if syntax.is_empty() {
@@ -85,6 +88,7 @@ impl Declared {
                     }
                 }
                 "workgroups" => self.workgroups = workgroups(value, report),
+                "overrides" => self.constants(value, report),
                 "ranges" => self.ranges(value, report),
                 other => report.note(
                     key.span(),
@@ -95,6 +99,30 @@ impl Declared {
         }
         if !schema {
             report.note(0..0, "`schema` is missing", "write schema = 1 as the first line");
+        }
+    }
+
+    /// Values of the shader's pipeline-overridable constants, by name, or by number where a constant has an `@id`.
+    pub fn overrides(&self) -> &BTreeMap<String, f64> {
+        &self.overrides
+    }
+
+    fn constants(&mut self, value: &Spanned<DeValue<'_>>, report: &mut Report) {
+        let DeValue::Table(table) = value.get_ref() else {
+            report.note(
+                value.span(),
+                "`overrides` is a table",
+                "write [overrides] on a line of its own",
+            );
+            return;
+        };
+        for (key, value) in table {
+            let given = match value.get_ref() {
+                DeValue::Boolean(truth) => Some(f64::from(u8::from(*truth))),
+                _ => number(value, report),
+            };
+            self.overrides
+                .extend(given.map(|given| (key.get_ref().to_string(), given)));
         }
     }
 

@@ -175,7 +175,7 @@ impl TexelFormat {
     }
 
     /// The kind of scalar that a shader reads from the format.
-    pub(crate) fn kind(self) -> Kind {
+    pub fn kind(self) -> Kind {
         match self.encoding() {
             Encoding::Int(t) if t.bits == 64 => Kind::Int(t),
             Encoding::Int(t) => Kind::Int(IntType {

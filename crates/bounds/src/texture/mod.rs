@@ -6,6 +6,7 @@
 //! few times, in the precision of the texels where those are bytes or 16-bit numbers. Anisotropic filtering is not modelled.
 
 pub(crate) mod cube;
+mod encode;
 pub(crate) mod filter;
 pub(crate) mod format;
 pub(crate) mod loads;

@@ -8,10 +8,11 @@ use std::io::{BufReader, stdin, stdout};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use bossage_bounds::ranges::Declared;
 use bossage_conformance::heat::Wanted;
 use bossage_conformance::user::{Children, Corpus, Options, run as run_shader, serve as serve_request};
 use bossage_conformance::{Report, Selection};
-use bossage_translate::Shader;
+use bossage_translate::{Shader, Source};
 
 use super::conform::Watch;
 use crate::Verdict;
@@ -33,9 +34,12 @@ pub(crate) fn report(
     global: &Global,
     console: Console,
 ) -> Result<Report> {
-    let shader = read(file, &args.user, global)?;
     let declared = numeric::sidecar(file, args.user.ranges.as_deref())?;
-    let options = options(file, args)?;
+    let (shader, original) = read(file, &args.user, declared.as_ref(), global)?;
+    let options = Options {
+        original,
+        ..options(file, args)?
+    };
     let program = std::env::current_exe()
         .map_err(|error| Error::Environment(format!("this program's own file cannot be found: {error}")))?;
     let children = Children {
@@ -69,12 +73,19 @@ pub(super) fn options(file: &Path, args: &Conform) -> Result<Options> {
             None if wants_a_page => Wanted::Widest,
             None => Wanted::Nothing,
         },
+        original: None,
         corpus: if args.hunt.hunt { None } else { corpus(file, args)? },
         arguments: arguments(file, args),
     })
 }
 
-pub(super) fn read(file: &Path, user: &UserShader, global: &Global) -> Result<Shader> {
+/// The shader, with the values that its sidecar has for overrides; and its bytes, if it is SPIR-V.
+pub(super) fn read(
+    file: &Path,
+    user: &UserShader,
+    declared: Option<&Declared>,
+    global: &Global,
+) -> Result<(Shader, Option<Vec<u8>>)> {
     if file.extension().is_some_and(|extension| extension == "toml") {
         return Err(Error::Call(format!(
             "{} is a scene; --shader takes a shader, --scene a scene",
@@ -85,9 +96,14 @@ pub(super) fn read(file: &Path, user: &UserShader, global: &Global) -> Result<Sh
     let mut inputs = Inputs::default();
     inputs.add(file, user.stage.map(crate::options::stage), &library)?;
     let module = inputs.modules.first();
-    module
-        .ok_or_else(|| Error::Call(format!("{} holds no shader", file.display())))?
-        .parse_labelled()
+    let module = module.ok_or_else(|| Error::Call(format!("{} holds no shader", file.display())))?;
+    let overrides = declared.map(|declared| declared.overrides().clone());
+    let shader = module.parse_with(&overrides.unwrap_or_default())?;
+    let original = match &module.source {
+        Source::Spirv(bytes) => Some(bytes.clone()),
+        Source::Wgsl(_) | Source::Glsl { .. } => None,
+    };
+    Ok((shader, original))
 }
 
 /// Where the shader's hard inputs are kept: beside it, or in the folder that the call names.

@@ -42,8 +42,8 @@ pub(crate) fn run(
     let mut told = |name: &str| console.note(format_args!("hunting {name}"));
     let hunted = match &args.user.shader {
         Some(file) => {
-            let shader = conform_shader::read(file, &args.user, global)?;
             let declared = numeric::sidecar(file, args.user.ranges.as_deref())?;
+            let (shader, _) = conform_shader::read(file, &args.user, declared.as_ref(), global)?;
             let user_options = conform_shader::options(file, args)?;
             hunt_shader(&shader, declared.as_ref(), &user_options, &options, &mut told)?
         }

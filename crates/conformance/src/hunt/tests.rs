@@ -42,6 +42,7 @@ fn hunt(text: &str, threshold: f64) -> Hunted {
         operations: user::OPERATIONS,
         attribute: Wanted::Nothing,
         corpus: None,
+        original: None,
         arguments: Vec::new(),
     };
     let options = options(6000, threshold);

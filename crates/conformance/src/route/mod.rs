@@ -147,6 +147,14 @@ impl Prepared {
         }
     }
 
+    /// A file of SPIR-V as it is, for the route that passes it through.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn of_spirv(name: &str, bytes: &[u8]) -> Result<Self, String> {
+        spirv::as_it_is(name, bytes)
+    }
+
     /// The assembled WGSL: what is computed from it once may serve as long as this is the same.
     #[must_use]
     pub fn text(&self) -> &str {

@@ -1,6 +1,6 @@
 //! Route `spirv`: the emitted file of each entry point, byte for byte what an engine loads, passed through to Vulkan.
 
-use bossage_translate::{Contents, EmitOptions, Shader, Target, emit, manifest};
+use bossage_translate::{Contents, EmitOptions, Shader, Source, Target, emit, manifest};
 
 use super::{Prepared, Text};
 
@@ -13,5 +13,17 @@ pub(super) fn prepare(shader: Shader) -> Result<Prepared, String> {
     });
     let code = code.collect::<Result<_, _>>()?;
     let manifest = manifest(&shader, &options, &[emitted]);
+    Ok(Prepared::new(shader, manifest, code))
+}
+
+/// A file that others wrote: its bindings are at its own places.
+pub(super) fn as_it_is(name: &str, bytes: &[u8]) -> Result<Prepared, String> {
+    let shader =
+        Shader::parse(name, &Source::Spirv(bytes.to_vec())).map_err(|diagnostic| diagnostic.to_string())?;
+    let manifest = manifest(&shader, &EmitOptions::default(), &[]);
+    let entries = shader.entry_points();
+    let code = entries
+        .map(|(entry, _)| (entry.to_owned(), Text::Spirv(bytes.to_vec())))
+        .collect();
     Ok(Prepared::new(shader, manifest, code))
 }

@@ -1,51 +1,75 @@
 //! What a job can bind.
 
-use bossage_bounds::ranges::{Inputs, TextureInput};
-use bossage_bounds::{Dimension, TexelFormat};
-use bossage_translate::manifest::Kind;
-use bossage_translate::{EmitOptions, Shader, manifest};
+use bossage_bounds::TexelFormat;
+use bossage_bounds::ranges::Inputs;
+use bossage_translate::manifest::{Binding, Entry, Kind};
+use bossage_translate::{EmitOptions, Shader, Stage, manifest};
 
-/// Whether everything that the entry point uses can be bound by a job.
-pub(super) fn bindable(shader: &Shader, entry: &str, inputs: &Inputs) -> Result<(), String> {
+use super::request::format_named;
+
+/// Bindings of textures that a compute shader may write.
+pub(super) type Stored = Vec<(u32, u32)>;
+
+/// Whether everything that the entry point uses can be bound by a job, and which textures it writes. Depths become 16-bit numbers, the only
+/// ones that a texture can be filled with.
+///
+/// # Errors
+/// What it is that cannot be bound, by name.
+pub(super) fn bindable(shader: &Shader, entry: &str, inputs: &mut Inputs) -> Result<Stored, String> {
     let manifest = manifest(shader, &EmitOptions::default(), &[]);
     let described = manifest
         .entry(entry)
         .ok_or_else(|| format!("the manifest lacks `{entry}`"))?;
-    if described.immediates.is_some() {
-        return Err("push constants are not bound here".to_owned());
+    for texture in &mut inputs.textures {
+        if texture.format == TexelFormat::Depth32Float {
+            texture.format = TexelFormat::Depth16Unorm;
+        }
     }
     for binding in &described.bindings {
-        let refused = |what: &str| Err(format!("`{}` is {what}, which is not bound here", binding.name));
-        if binding.count.is_some() {
-            return refused("a binding array");
-        }
-        match binding.kind {
-            Kind::UniformBuffer
-            | Kind::ReadOnlyStorageBuffer
-            | Kind::StorageBuffer
-            | Kind::Texture
-            | Kind::Sampler => {}
-            Kind::DepthTexture => return refused("a depth texture"),
-            Kind::StorageTexture => return refused("a storage texture"),
-            Kind::ComparisonSampler => return refused("a comparison sampler"),
+        check(described, binding)?;
+    }
+    for texture in &inputs.textures {
+        if format_named(&format!("{:?}", texture.format)).is_none() {
+            return Err(format!(
+                "`{}` is a texture of {:?}, which is not bound here",
+                texture.name, texture.format
+            ));
         }
     }
-    let plain = |texture: &&TextureInput| {
-        let layers = if texture.dimension == Dimension::Cube {
-            6
-        } else {
-            1
-        };
-        matches!(texture.dimension, Dimension::D2 | Dimension::Cube)
-            && texture.layers == layers
-            && texture.samples == 1
-            && texture.format == TexelFormat::Rgba32Float
+    let stored = described.bindings.iter().filter(|binding| is_written(binding));
+    Ok(stored.map(|binding| (binding.group, binding.binding)).collect())
+}
+
+fn check(described: &Entry, binding: &Binding) -> Result<(), String> {
+    let refused = |what: &str| Err(format!("`{}` is {what}, which is not bound here", binding.name));
+    if binding.count.is_some() {
+        return refused("a binding array");
+    }
+    let Some(texture) = &binding.texture else {
+        return Ok(());
     };
-    match inputs.textures.iter().find(|texture| !plain(texture)) {
-        None => Ok(()),
-        Some(other) => Err(format!(
-            "`{}` is no plain 2D or cube texture of floats, and others are not bound here",
-            other.name
-        )),
+    if texture.multisampled {
+        return refused("a multisampled texture");
     }
+    if binding.ty == "texture_external" {
+        return refused("an external texture");
+    }
+    if texture.access.as_deref() == Some("atomic") {
+        return refused("a texture of atomics");
+    }
+    if is_written(binding) && described.stage != Stage::Compute {
+        return Err(format!(
+            "it writes the texture `{}`, and of what is drawn only targets are read back",
+            binding.name
+        ));
+    }
+    Ok(())
+}
+
+fn is_written(binding: &Binding) -> bool {
+    let access = binding
+        .texture
+        .as_ref()
+        .and_then(|texture| texture.access.as_deref());
+    binding.kind == Kind::StorageTexture && access != Some("read")
 }

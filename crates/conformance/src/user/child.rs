@@ -209,6 +209,7 @@ mod tests {
             wgsl: String::new(),
             entry: "main".to_owned(),
             companion: None,
+            original: None,
             jobs: vec![job; jobs],
         })
     }
@@ -265,6 +266,7 @@ mod tests {
             wgsl: String::new(),
             entry: String::new(),
             companion: None,
+            original: None,
             jobs: Vec::new(),
         };
         assert!(reason(&children.execute(&empty)).contains("cannot be started"));

@@ -16,8 +16,8 @@
 //!
 //! Compute entry points are dispatched; vertex and fragment entry points are drawn between generated stages (`draw`).
 //!
-//! Limits: storage textures, depth, layered, multisampled and integer textures, push constants and binding arrays are not bound, which
-//! is said as a skip.
+//! Limits: multisampled and external textures, those whose format [`Texels`] cannot name, and binding arrays are not bound,
+//! and of a stage that is drawn nothing but its targets is read back; each is said as a skip. Depth textures have 16 bits a texel.
 
 mod agree;
 mod bindable;
@@ -34,6 +34,7 @@ mod request;
 mod stage_tests;
 #[cfg(test)]
 mod tests;
+mod texels;
 
 use std::fmt;
 
@@ -46,7 +47,9 @@ pub use corpus::{Corpus, Found};
 pub use plan::Plan;
 pub(crate) use plan::plans;
 pub(crate) use ready::Ready;
-pub use request::{Buffer, Companion, Job, Kept, Pass, Request, Side, Texels, execute, serve};
+pub use request::{
+    Buffer, Companion, Job, Kept, Original, Pass, Request, Shape, Side, Texels, execute, serve,
+};
 
 use expect::{At, Known};
 use ready::Ran;
@@ -87,6 +90,8 @@ pub struct Options {
     pub operations: u64,
     /// Which output's bound is attributed to source lines.
     pub attribute: Wanted,
+    /// The bytes of a shader that is SPIR-V: what the route `spirv` runs.
+    pub original: Option<Vec<u8>>,
     /// Inputs that hunts found, which are run after the chosen ones.
     pub corpus: Option<Corpus>,
     /// What the command line needs besides a case's name to run it again.

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use bossage_runner::{
-    Blend, Clear, Cull, Depth, Draw, Machine, Mesh, Picture, RenderJob, RenderTarget, Resources, Shader, slot,
+    Blend, Clear, Cull, Depth, Draw, Machine, Mesh, PUSH_CONSTANTS, Picture, RenderJob, RenderTarget,
+    Resources, Shader, slot,
 };
 
 use super::Stop;
@@ -17,7 +18,7 @@ const SIDE: u32 = 2;
 pub(super) fn run(
     job: &Job,
     companion: &Companion,
-    own: &Prepared,
+    (own, entry): (&Prepared, &str),
     generated: &Prepared,
     machine: &dyn Machine,
 ) -> Result<Vec<Bytes>, Stop> {
@@ -28,7 +29,7 @@ pub(super) fn run(
     let mut left = Vec::new();
     for pass in &companion.passes {
         let shader = |side: &Side| match side {
-            Side::Own(entry) => own.shader(entry),
+            Side::Own => own.shader(entry),
             Side::Generated(entry) => generated.shader(entry),
         };
         let vertex = shader(&pass.vertex).map_err(Stop::Failed)?;
@@ -67,10 +68,13 @@ fn pictures(pass: &Pass, draw: Draw<'_>, machine: &dyn Machine) -> Result<Vec<Pi
 
 /// The resources that a pair of stages has bindings for.
 fn bound<'a>(all: &Resources<'a>, stages: [&Shader<'_>; 2]) -> Resources<'a> {
+    let pushes = stages.iter().any(|stage| stage.entry.immediates.is_some());
+    let pushed = pushes.then(|| PUSH_CONSTANTS.to_owned());
     let places: Vec<String> = stages
         .iter()
         .flat_map(|stage| &stage.entry.bindings)
         .map(|binding| slot(binding.group, binding.binding))
+        .chain(pushed)
         .collect();
     let buffers = all.buffers.iter().filter(|(place, _)| places.contains(place));
     Resources {

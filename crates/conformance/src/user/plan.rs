@@ -73,6 +73,7 @@ pub(crate) fn plans(
     if chosen.is_empty() {
         return Err(none("has no entry point"));
     }
+    let is_overridden = declared.is_some_and(|declared| !declared.overrides().is_empty());
     let mut known = Vec::new();
     let mut plans = Vec::new();
     for (entry, stage) in &all {
@@ -81,7 +82,8 @@ pub(crate) fn plans(
             known.push(inputs.clone());
         }
         if chosen.iter().any(|(name, _)| name == entry) {
-            let mut ready = inputs.and_then(|inputs| Ready::new(shader, entry, *stage, inputs, options));
+            let mut ready =
+                inputs.and_then(|inputs| Ready::new(shader, entry, *stage, inputs, is_overridden, options));
             if let Ok(ready) = &mut ready {
                 ready.check_size(shader.name())?;
                 if let Some(corpus) = &options.corpus {

@@ -1,15 +1,16 @@
 //! An entry point that can be run: its code, its inputs and what it binds at each, and what comes back.
 
-use bossage_bounds::ranges::{Inputs, Point, Seed, Style, TextureInput, UNWRITTEN, scalar_names};
+use bossage_bounds::ranges::{Inputs, Point, Seed, Style, UNWRITTEN, scalar_names};
 use bossage_bounds::{
-    Bindings, BufferData, BufferUse, Dimension, Domain, Error as BoundsError, F32, Limits, Program, Scalar,
+    Bindings, BufferData, BufferUse, Domain, Error as BoundsError, F32, Limits, Program, Scalar, TexelFormat,
     run_compute, run_entry,
 };
 use bossage_runner::slot;
 use bossage_translate::{Contents, EmitOptions, Language, Shader, Stage, Target, emit};
 
 use super::draw::{self, Draw};
-use super::request::{Buffer, Job, Request, Texels};
+use super::request::{Buffer, Job, Original, Request};
+use super::texels;
 use super::{Options, bindable::bindable};
 use crate::case::with_causes;
 use crate::compare::NamedInput;
@@ -35,6 +36,8 @@ pub(crate) struct Ready {
     wgsl: String,
     /// The entry point's name in `wgsl`.
     entry: String,
+    /// The file that the route `spirv` runs, where that was one: its bytes, and the entry point's name in it.
+    original: Option<Original>,
 }
 
 /// How it is run.
@@ -49,11 +52,18 @@ enum Form {
     Draw(Draw),
 }
 
-/// A buffer that is read back.
+/// Something that is read back, and how many scalars that is.
 #[derive(Debug)]
 struct Written {
-    buffer: BufferUse,
+    what: What,
     scalars: usize,
+}
+
+/// A buffer, or a texture, by its binding.
+#[derive(Clone, Copy, Debug)]
+enum What {
+    Buffer((u32, u32)),
+    Texture((u32, u32), TexelFormat),
 }
 
 /// What a machine made of one input.
@@ -70,10 +80,11 @@ impl Ready {
         shader: &Shader,
         entry: &str,
         stage: Stage,
-        inputs: Inputs,
+        mut inputs: Inputs,
+        is_overridden: bool,
         options: &Options,
     ) -> Result<Self, String> {
-        bindable(shader, entry, &inputs)?;
+        let stored = bindable(shader, entry, &mut inputs)?;
         let (module, info) = shader
             .module(entry)
             .ok_or_else(|| format!("no entry point `{entry}`"))?;
@@ -83,14 +94,14 @@ impl Ready {
                 with_causes(&error)
             )
         })?;
-        let (wgsl, own) = code(shader, entry)?;
+        let (wgsl, own) = code(shader, entry, is_overridden)?;
         let (wgsl, own, form, names) = match stage {
             Stage::Compute => {
                 let scalars = |buffer: &BufferUse| {
                     scalar_names(module, buffer.binding, inputs.elements(buffer.binding))
                         .map_err(|error| with_causes(&error))
                 };
-                let (form, names) = Form::dispatch(&program, &inputs, options, &scalars)?;
+                let (form, names) = Form::dispatch(&program, &inputs, &stored, options, &scalars)?;
                 (wgsl, own, form, names)
             }
             Stage::Vertex | Stage::Fragment => {
@@ -99,8 +110,18 @@ impl Ready {
                 (drawn.wgsl, drawn.entry, Form::Draw(drawn.draw), names)
             }
         };
+        let is_as_read = match &form {
+            Form::Dispatch { .. } => true,
+            Form::Draw(draw) => !draw.is_called(),
+        };
+        let bytes = options.original.as_ref().filter(|_| is_as_read && !is_overridden);
+        let original = bytes.map(|bytes| Original {
+            bytes: bytes.clone(),
+            entry: entry.to_owned(),
+        });
         let mut seed = Seed::new(options.seed);
         Ok(Self {
+            original,
             points: (0..options.inputs)
                 .map(|number| form.choose(&inputs, &mut seed, number))
                 .collect(),
@@ -164,6 +185,7 @@ impl Ready {
             name: name.to_owned(),
             wgsl: self.wgsl.clone(),
             entry: self.entry.clone(),
+            original: self.original.clone().filter(|_| route == Route::Spirv),
             companion: match &self.form {
                 Form::Dispatch { .. } => None,
                 Form::Draw(draw) => Some(draw.companion().clone()),
@@ -204,11 +226,21 @@ impl Ready {
         Some(Job {
             buffers,
             textures: textures
-                .map(|(texture, texels)| texels_of(texture, texels))
+                .map(|(texture, texels)| texels::bound(texture, texels, self.is_stored(texture.binding)))
                 .collect(),
             samplers: self.inputs.samplers.iter().map(|s| s.binding).collect(),
             workgroups,
         })
+    }
+
+    /// Whether a texture is read back.
+    fn is_stored(&self, place: (u32, u32)) -> bool {
+        match &self.form {
+            Form::Draw(_) => false,
+            Form::Dispatch { written, .. } => written
+                .iter()
+                .any(|written| matches!(written.what, What::Texture(binding, _) if binding == place)),
+        }
     }
 
     /// What an input's job left; `None` when it is not of the right sizes.
@@ -225,7 +257,10 @@ impl Ready {
                     return None;
                 }
                 for (written, bytes) in written.iter().zip(left) {
-                    let scalars = self.program.scalars_of::<F32>(written.buffer.binding, bytes)?;
+                    let scalars = match written.what {
+                        What::Buffer(binding) => self.program.scalars_of::<F32>(binding, bytes)?,
+                        What::Texture(_, format) => texels::held(format, format.scalars(bytes)),
+                    };
                     if scalars.len() != written.scalars {
                         return None;
                     }
@@ -250,12 +285,18 @@ impl Ready {
         match &self.form {
             Form::Dispatch { workgroups, written } => {
                 run_compute(&self.program, &mut bindings, *workgroups, limits)?;
-                let of_buffer = |written: &Written| match bindings.buffers.get(&written.buffer.binding) {
-                    Some(BufferData::Scalars(scalars)) => scalars.clone(),
-                    // A run leaves every writable buffer as scalars.
-                    Some(BufferData::Bytes(_)) | None => Vec::new(),
+                let left = |written: &Written| match written.what {
+                    What::Buffer(binding) => match bindings.buffers.get(&binding) {
+                        Some(BufferData::Scalars(scalars)) => scalars.clone(),
+                        // A run leaves every writable buffer as scalars.
+                        Some(BufferData::Bytes(_)) | None => Vec::new(),
+                    },
+                    What::Texture(binding, format) => {
+                        let scalars = bindings.written_textures.get(&binding).cloned();
+                        texels::held(format, scalars.unwrap_or_default())
+                    }
                 };
-                Ok(written.iter().flat_map(of_buffer).collect())
+                Ok(written.iter().flat_map(left).collect())
             }
             Form::Draw(draw) => {
                 let (outputs, _) = run_entry(&self.program, &mut bindings, &inputs, [1; 3], limits)?;
@@ -283,7 +324,10 @@ impl Ready {
         let mut at = output;
         for written in written {
             if at < written.scalars {
-                return !self.inputs.is_read(written.buffer.binding);
+                return match written.what {
+                    What::Buffer(binding) => !self.inputs.is_read(binding),
+                    What::Texture(..) => false,
+                };
             }
             at -= written.scalars;
         }
@@ -329,6 +373,7 @@ impl Form {
     fn dispatch(
         program: &Program,
         inputs: &Inputs,
+        stored: &[(u32, u32)],
         options: &Options,
         scalars: &dyn Fn(&BufferUse) -> Result<Vec<String>, String>,
     ) -> Result<(Self, Vec<String>), String> {
@@ -336,8 +381,8 @@ impl Form {
         for buffer in program.buffers().into_iter().filter(|buffer| buffer.writable) {
             let own = scalars(&buffer)?;
             written.push(Written {
+                what: What::Buffer(buffer.binding),
                 scalars: own.len(),
-                buffer: buffer.clone(),
             });
             let place = match buffer.name.is_empty() {
                 true => slot(buffer.binding.0, buffer.binding.1),
@@ -345,8 +390,20 @@ impl Form {
             };
             names.extend(own.into_iter().map(|name| format!("{place}{name}")));
         }
+        for texture in inputs
+            .textures
+            .iter()
+            .filter(|texture| stored.contains(&texture.binding))
+        {
+            let own = texels::names(texture);
+            written.push(Written {
+                what: What::Texture(texture.binding, texture.format),
+                scalars: own.len(),
+            });
+            names.extend(own);
+        }
         if written.is_empty() {
-            return Err("it writes no buffer, so there is nothing to compare".to_owned());
+            return Err("it writes no buffer and no texture, so there is nothing to compare".to_owned());
         }
         let derived = || {
             derived(
@@ -381,15 +438,6 @@ fn bytes(bindings: &Bindings<F32>, program: &Program, group: u32, binding: u32) 
     Some(bytes)
 }
 
-fn texels_of(texture: &TextureInput, texels: &[f64]) -> Texels {
-    Texels {
-        binding: texture.binding,
-        size: [texture.size[0], texture.size[1]],
-        cube: texture.dimension == Dimension::Cube,
-        bytes: texels.iter().flat_map(|x| (*x as f32).to_le_bytes()).collect(),
-    }
-}
-
 /// Enough workgroups along x for one invocation an element, unless the sidecar says how many.
 fn derived(declared: [u32; 3], elements: u32, size: [u32; 3]) -> [u32; 3] {
     if declared != [1; 3] {
@@ -398,9 +446,10 @@ fn derived(declared: [u32; 3], elements: u32, size: [u32; 3]) -> [u32; 3] {
     [elements.div_ceil(size[0].max(1)).max(1), 1, 1]
 }
 
-/// The code that every route starts from: the text itself, or, of other languages, the WGSL that we emit for it.
-fn code(shader: &Shader, entry: &str) -> Result<(String, String), String> {
-    if shader.language() == Language::Wgsl {
+/// The code that every route starts from: the text itself, or, of other languages and with values for overrides, the WGSL that we emit
+/// for it.
+fn code(shader: &Shader, entry: &str, is_overridden: bool) -> Result<(String, String), String> {
+    if shader.language() == Language::Wgsl && !is_overridden {
         return Ok((shader.text().to_owned(), entry.to_owned()));
     }
     let emitted = emit(shader, Target::Wgsl, &EmitOptions::default()).map_err(|d| d.to_string())?;

@@ -6,8 +6,10 @@
 use std::collections::BTreeMap;
 use std::io::{BufRead, Write};
 
+use bossage_bounds::IMMEDIATE;
 use bossage_runner::{
-    AdapterSelector, BufferData, ComputeJob, Machine, Resources, SamplerSettings, TextureData, slot,
+    AdapterSelector, BufferData, ComputeJob, Machine, PUSH_CONSTANTS, Resources, SamplerSettings,
+    TexelFormat, TextureData, TextureDimension, slot,
 };
 use bossage_shaders::AssembledShader;
 use serde::{Deserialize, Serialize};
@@ -32,11 +34,24 @@ pub struct Request {
     pub wgsl: String,
     /// The entry point's name in it.
     pub entry: String,
+    /// A file to run instead, as it is.
+    #[serde(default)]
+    pub original: Option<Original>,
     /// Of a stage that is drawn: what is generated around it.
     #[serde(default)]
     pub companion: Option<Companion>,
     /// What to run, one after the other.
     pub jobs: Vec<Job>,
+}
+
+/// A file of SPIR-V.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Original {
+    /// Its bytes.
+    #[serde(with = "text")]
+    pub bytes: Vec<u8>,
+    /// The entry point's name in it.
+    pub entry: String,
 }
 
 /// Generated stages, and the passes that draw with them and with the shader's own. Each pass draws the same triangles to 2 × 2 pixels.
@@ -65,8 +80,8 @@ pub struct Pass {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Side {
-    /// In the request's code.
-    Own(String),
+    /// The one that is asked for.
+    Own,
     /// In the companion's.
     Generated(String),
 }
@@ -108,18 +123,40 @@ pub struct Buffer {
     pub written: bool,
 }
 
-/// A texture of one level of 32-bit floats.
+/// A texture of one level.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Texels {
     /// Bind group and binding number.
     pub binding: (u32, u32),
+    /// Its shape.
+    pub shape: Shape,
     /// Width and height.
     pub size: [u32; 2],
-    /// Whether it is a cube, of six faces.
-    pub cube: bool,
-    /// Four floats a texel, row by row, face by face.
+    /// The format, as WebGPU calls it but in capitals: `Rgba32Float`.
+    pub format: String,
+    /// The texels, row by row, layer by layer.
     #[serde(with = "text")]
     pub bytes: Vec<u8>,
+    /// Whether it is read back.
+    pub written: bool,
+}
+
+/// How a texture's texels are read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// One row.
+    Line,
+    /// One layer.
+    Plane,
+    /// So many layers.
+    Array(u32),
+    /// Six faces.
+    Cube,
+    /// So many cubes.
+    CubeArray(u32),
+    /// So many slices.
+    Volume(u32),
 }
 
 /// What the process says, a line each.
@@ -128,7 +165,7 @@ pub struct Texels {
 pub(super) enum Said {
     /// The code is prepared, the adapter open.
     Ready,
-    /// A job is done: its written buffers in the order of the job, or the targets of all passes.
+    /// A job is done: its written buffers and then its written textures in the order of the job, or the targets of all passes.
     Done(Vec<Bytes>),
     /// Nothing more comes.
     Stopped(Stop),
@@ -215,7 +252,16 @@ fn run(request: &Request, say: &mut dyn FnMut(Said)) -> Result<(), Stop> {
         };
         route.prepare(&assembled).map_err(unprepared)
     };
-    let prepared = prepare(request.name.clone(), &request.wgsl)?;
+    let (prepared, entry) = match &request.original {
+        Some(original) => {
+            let read = Prepared::of_spirv(&request.name, &original.bytes).map_err(unprepared)?;
+            (read, original.entry.as_str())
+        }
+        None => (
+            prepare(request.name.clone(), &request.wgsl)?,
+            request.entry.as_str(),
+        ),
+    };
     let companion = request.companion.as_ref();
     let generated = companion
         .map(|companion| prepare(format!("{} (generated)", request.name), &companion.wgsl))
@@ -225,9 +271,9 @@ fn run(request: &Request, say: &mut dyn FnMut(Said)) -> Result<(), Stop> {
     for job in &request.jobs {
         let left = match (companion, &generated) {
             (Some(companion), Some(generated)) => {
-                picture::run(job, companion, &prepared, generated, machine.as_ref())?
+                picture::run(job, companion, (&prepared, entry), generated, machine.as_ref())?
             }
-            _ => job.run(request, &prepared, machine.as_ref())?,
+            _ => job.run(entry, &prepared, machine.as_ref())?,
         };
         say(Said::Done(left));
     }
@@ -237,15 +283,14 @@ fn run(request: &Request, say: &mut dyn FnMut(Said)) -> Result<(), Stop> {
 impl Job {
     /// The textures as a machine takes them.
     pub(super) fn textures(&self) -> Result<Vec<TextureData>, Stop> {
-        let made: Result<Vec<TextureData>, _> = self.textures.iter().map(Texels::data).collect();
-        made.map_err(|e| stop(&e))
+        self.textures.iter().map(Texels::data).collect()
     }
 
-    fn run(&self, request: &Request, prepared: &Prepared, machine: &dyn Machine) -> Result<Vec<Bytes>, Stop> {
-        let shader = prepared.shader(&request.entry).map_err(Stop::Failed)?;
+    fn run(&self, entry: &str, prepared: &Prepared, machine: &dyn Machine) -> Result<Vec<Bytes>, Stop> {
+        let shader = prepared.shader(entry).map_err(Stop::Failed)?;
         let textures = self.textures()?;
         let job = ComputeJob {
-            name: &request.entry,
+            name: entry,
             shader,
             resources: self.resources(&textures),
             workgroups: self.workgroups,
@@ -257,21 +302,26 @@ impl Job {
                 .bindings
                 .iter()
                 .find(|b| (b.group, b.binding) == binding);
-            let bytes = described.and_then(|b| output.buffers.get(&b.name));
+            let all = |name: &str| output.buffers.get(name).or_else(|| output.textures.get(name));
+            let bytes = described.and_then(|b| all(&b.name));
             bytes
                 .cloned()
                 .map(Bytes)
                 .ok_or_else(|| Stop::Failed(format!("{} was not read back", slot(binding.0, binding.1))))
         };
-        self.buffers
-            .iter()
-            .filter(|buffer| buffer.written)
-            .map(|buffer| named(buffer.binding))
-            .collect()
+        let buffers = self.buffers.iter().filter(|buffer| buffer.written);
+        let textures = self.textures.iter().filter(|texels| texels.written);
+        let places = buffers
+            .map(|buffer| buffer.binding)
+            .chain(textures.map(|texels| texels.binding));
+        places.map(named).collect()
     }
 
     pub(super) fn resources<'a>(&'a self, textures: &'a [TextureData]) -> Resources<'a> {
-        let key = |(group, binding): (u32, u32)| slot(group, binding);
+        let key = |place: (u32, u32)| match place {
+            IMMEDIATE => PUSH_CONSTANTS.to_owned(),
+            (group, binding) => slot(group, binding),
+        };
         let samplers = self.samplers.iter();
         Resources {
             uniforms: BTreeMap::new(),
@@ -294,23 +344,51 @@ impl Job {
 }
 
 impl Texels {
-    fn data(&self) -> Result<TextureData, bossage_runner::Error> {
+    fn data(&self) -> Result<TextureData, Stop> {
+        let format = format_named(&self.format)
+            .ok_or_else(|| Stop::Failed(format!("textures of {} are not bound here", self.format)))?;
         let [width, height] = self.size;
-        let texels: Vec<[f32; 4]> = self
-            .bytes
-            .as_chunks::<16>()
-            .0
-            .iter()
-            .map(|texel| bytemuck::pod_read_unaligned(texel))
-            .collect();
-        if !self.cube {
-            return Ok(TextureData::rgba32f(width, height, &texels));
-        }
-        let face = (width * height).max(1) as usize;
-        let faces: Vec<&[[f32; 4]]> = texels.chunks(face).collect();
-        let name = slot(self.binding.0, self.binding.1);
-        TextureData::cube(&name, width, bossage_runner::TexelFormat::Rgba32Float, &faces)
+        Ok(TextureData {
+            width,
+            height,
+            format,
+            dimension: match self.shape {
+                Shape::Line => TextureDimension::Line,
+                Shape::Plane => TextureDimension::Plane,
+                Shape::Array(layers) => TextureDimension::Array(layers),
+                Shape::Cube => TextureDimension::Cube,
+                Shape::CubeArray(cubes) => TextureDimension::CubeArray(cubes),
+                Shape::Volume(slices) => TextureDimension::Volume(slices),
+            },
+            levels: vec![self.bytes.clone()],
+        })
     }
+}
+
+/// The format of that name, of those that a machine binds.
+pub(super) fn format_named(name: &str) -> Option<TexelFormat> {
+    use TexelFormat as T;
+    let all = [
+        T::Rgba8Unorm,
+        T::Rgba8Snorm,
+        T::Rgba8Uint,
+        T::Rgba8Sint,
+        T::Rgba16Unorm,
+        T::Rgba16Float,
+        T::Rgba16Uint,
+        T::Rgba16Sint,
+        T::R32Float,
+        T::R32Uint,
+        T::R32Sint,
+        T::Rg32Float,
+        T::Rg32Uint,
+        T::Rg32Sint,
+        T::Rgba32Float,
+        T::Rgba32Uint,
+        T::Rgba32Sint,
+        T::Depth16Unorm,
+    ];
+    all.into_iter().find(|format| format!("{format:?}") == name)
 }
 
 /// What a language or its writer cannot express is a lack of the route.

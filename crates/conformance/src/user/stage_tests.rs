@@ -42,6 +42,7 @@ fn options() -> Options {
         operations: OPERATIONS,
         attribute: Wanted::Nothing,
         corpus: None,
+        original: None,
         arguments: Vec::new(),
     }
 }
@@ -257,4 +258,49 @@ fn a_vertex_stage_that_never_ends_fails_with_its_line() {
         reason.contains("surface.wgsl:4:") && reason.contains("--operations"),
         "{reason}"
     );
+}
+
+/// A component that one route gets wrong, in the colour of a fragment stage: it is refused there, disagrees there, and nowhere else.
+#[test]
+fn a_fault_of_one_route_is_named_on_that_route_alone() {
+    struct Faulty;
+    impl Executor for Faulty {
+        fn execute(&self, request: &Request) -> Execution {
+            let here = Request {
+                route: "embedded".to_owned(),
+                adapter: bossage_embedded::NAME.to_owned(),
+                original: None,
+                ..request.clone()
+            };
+            let mut execution = InProcess.execute(&here);
+            if request.route == "glsl" {
+                for job in &mut execution.done {
+                    // Green and blue of the last picture, which is the colour, change places.
+                    for pixel in job.last_mut().unwrap().as_chunks_mut::<16>().0 {
+                        let (green, blue) = pixel.split_at_mut(8);
+                        green[4..].swap_with_slice(&mut blue[..4]);
+                    }
+                }
+            }
+            execution
+        }
+    }
+    let shader = Shader::parse("surface.wgsl", &Source::Wgsl(SURFACE.to_owned())).unwrap();
+    let options = Options {
+        entry: Some("shade".to_owned()),
+        ..options()
+    };
+    let routes = [Route::Wgsl, Route::Spirv, Route::Glsl, Route::Embedded];
+    let cells = routes.map(|route| (route, "one".to_owned()));
+    let plan = &super::plan::plans(&shader, None, &options).unwrap()[0];
+    let (results, _) = super::results_of(plan, &shader, &cells, &options, &Faulty).unwrap();
+    for case in &results {
+        let wanted = match case.route {
+            Route::Glsl => Verdict::Fail,
+            _ => Verdict::Pass,
+        };
+        assert_eq!(case.verdict, wanted, "{case:?}");
+    }
+    let generators = |route: Route| results.iter().filter(|case| case.route == route).count();
+    assert_eq!((generators(Route::Glsl), generators(Route::Embedded)), (2, 1));
 }

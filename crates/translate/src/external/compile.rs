@@ -40,10 +40,13 @@ pub fn to_spirv(
             let arguments = dxc::spirv_arguments(file, entry, options)?;
             let raw = object(dxc::TOOL.name, file, &arguments, validators, cache)?;
             Ok(Compiled {
-                bytes: relocate::hlsl(&raw)?,
+                bytes: relocate::hlsl(&raw, entry)?,
                 entry_point: file.entry_point.clone(),
             })
         }
+        Target::Glsl if entry.immediates.is_some() => Err(
+            "error[unsupported]: the GLSL holds push constants in plain uniforms, which OpenGL has and Vulkan has not".to_owned(),
+        ),
         Target::Glsl => {
             let raw = object(
                 glslang::TOOL.name,

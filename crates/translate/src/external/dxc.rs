@@ -8,7 +8,7 @@
 //! a package of others brings.
 
 use crate::emit::EmittedFile;
-use crate::external::{Input, Tool};
+use crate::external::{Input, Tool, push};
 use crate::manifest::Entry;
 use crate::options::EmitOptions;
 use crate::target::{ShaderModel, Target};
@@ -59,6 +59,12 @@ pub(super) fn spirv_arguments(
         all.push("-fvk-bind-register".to_owned());
         all.push(slot.register.clone());
         all.extend([slot.space, binding.binding, binding.group].map(|number| number.to_string()));
+    }
+    if let Some(slot) = entry.immediates.as_ref().and_then(|pushed| pushed.hlsl.as_ref()) {
+        let (group, binding) = push::PLACE;
+        all.push("-fvk-bind-register".to_owned());
+        all.push(slot.register.clone());
+        all.extend([slot.space, binding, group].map(|number| number.to_string()));
     }
     Ok(all)
 }

@@ -1,6 +1,7 @@
 //! Puts what a compiler of others numbered in its own way at the places of the source.
 //!
-//! HLSL links stages by semantics, and DXC counts locations in the order of declaration: each `LOCn` goes to location n.
+//! HLSL links stages by semantics, and DXC counts locations in the order of declaration: each `LOCn` goes to location n. Formats of storage
+//! images, which it guesses, become those of the source (`formats`); the buffer that stands for push constants becomes them (`push`).
 //!
 //! GLSL has one number for each of our (group, binding), and joins a texture and its sampler in one variable, which WebGPU's
 //! bindings lack: such a variable becomes a texture and a sampler, joined again where they are read; functions that are handed one
@@ -14,8 +15,8 @@ use rspirv::spirv::{Decoration, Op, StorageClass, Word};
 
 use crate::manifest::{Binding, Entry};
 
-/// The module of DXC with every `LOCn` at location n.
-pub(super) fn hlsl(bytes: &[u8]) -> Result<Vec<u8>, String> {
+/// The module of DXC with every `LOCn` at location n, storage images in their formats, and push constants.
+pub(super) fn hlsl(bytes: &[u8], entry: &Entry) -> Result<Vec<u8>, String> {
     let mut module = read(bytes)?;
     let locations: BTreeMap<Word, u32> = module.debug_names.iter().filter_map(semantic).collect();
     for annotation in &mut module.annotations {
@@ -24,6 +25,8 @@ pub(super) fn hlsl(bytes: &[u8]) -> Result<Vec<u8>, String> {
             annotation.operands[2] = Operand::LiteralBit32(*location);
         }
     }
+    super::formats::state(&mut module, entry)?;
+    super::push::push(&mut module);
     Ok(bytes_of(&module))
 }
 
@@ -282,7 +285,7 @@ fn load(ty: Word, result: Word, variable: Option<Word>) -> Instruction {
     instruction(Op::Load, Some(ty), Some(result), operands)
 }
 
-fn pointer_to(result: Word, pointee: Word) -> Instruction {
+pub(super) fn pointer_to(result: Word, pointee: Word) -> Instruction {
     let class = Operand::StorageClass(StorageClass::UniformConstant);
     instruction(
         Op::TypePointer,
@@ -292,7 +295,12 @@ fn pointer_to(result: Word, pointee: Word) -> Instruction {
     )
 }
 
-fn instruction(op: Op, ty: Option<Word>, result: Option<Word>, operands: Vec<Operand>) -> Instruction {
+pub(super) fn instruction(
+    op: Op,
+    ty: Option<Word>,
+    result: Option<Word>,
+    operands: Vec<Operand>,
+) -> Instruction {
     Instruction::new(op, ty, result, operands)
 }
 
@@ -303,7 +311,7 @@ pub(super) fn fresh(module: &mut Module) -> Word {
     })
 }
 
-fn id(operand: &Operand) -> Option<Word> {
+pub(super) fn id(operand: &Operand) -> Option<Word> {
     match operand {
         Operand::IdRef(id) => Some(*id),
         _ => None,
@@ -311,13 +319,26 @@ fn id(operand: &Operand) -> Option<Word> {
 }
 
 /// What an annotation is about.
-fn target(annotation: &Instruction) -> Option<Word> {
+pub(super) fn target(annotation: &Instruction) -> Option<Word> {
     annotation.operands.first().and_then(id)
 }
 
-fn decorates(annotation: &Instruction, decoration: Decoration) -> bool {
+pub(super) fn decorates(annotation: &Instruction, decoration: Decoration) -> bool {
     annotation.class.opcode == Op::Decorate
         && annotation.operands.get(1) == Some(&Operand::Decoration(decoration))
+}
+
+/// The group and binding that a variable is decorated with.
+pub(super) fn place(module: &Module, variable: Word) -> Option<(u32, u32)> {
+    let number = |decoration: Decoration| {
+        let mut all = module.annotations.iter();
+        let found = all.find(|one| target(one) == Some(variable) && decorates(one, decoration))?;
+        match found.operands.get(2) {
+            Some(Operand::LiteralBit32(number)) => Some(*number),
+            _ => None,
+        }
+    };
+    Some((number(Decoration::DescriptorSet)?, number(Decoration::Binding)?))
 }
 
 fn read(bytes: &[u8]) -> Result<Module, String> {

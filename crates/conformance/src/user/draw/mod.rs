@@ -116,7 +116,7 @@ impl Draw {
         };
         passes.push(Pass {
             vertex: Side::Generated("bossage_feed".to_owned()),
-            fragment: Side::Own(entry.clone()),
+            fragment: Side::Own,
             targets,
         });
         let draw = Self {
@@ -152,7 +152,7 @@ impl Draw {
         let call = text::call_vertex(feed, &callable, &inputs, &outputs);
         let entry = "bossage_call".to_owned();
         let stores = outputs.chunks(TARGETS).enumerate().map(|(number, part)| Pass {
-            vertex: Side::Own(entry.clone()),
+            vertex: Side::Own,
             fragment: Side::Generated(text::name("store", number)),
             targets: vec![Kept::Unsigned; part.len()],
         });
@@ -177,6 +177,11 @@ impl Draw {
 
     pub(super) fn companion(&self) -> &Companion {
         &self.companion
+    }
+
+    /// Whether a generated stage calls it, so that its text is not quite as it was.
+    pub(super) fn is_called(&self) -> bool {
+        self.called
     }
 
     pub(super) fn stage(&self) -> Stage {
