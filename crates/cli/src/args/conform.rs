@@ -65,8 +65,8 @@ pub(crate) struct Hunt {
     /// Seconds that the search takes, for all functions together [default: 60, or no limit with --evaluations]
     #[arg(long, value_name = "SECONDS", requires = "hunt", value_parser = seconds)]
     pub(crate) time: Option<f64>,
-    /// Inputs that are evaluated at most for each function or entry point, those that make a find plain not counted; without --time the
-    /// same seed then finds the same on every machine
+    /// Inputs that are evaluated at most for each function or entry point, a fifth of them to make finds plain; without --time the same
+    /// seed then finds the same on every machine
     #[arg(long, value_name = "N", requires = "hunt", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) evaluations: Option<u64>,
     /// Only errors and widths of so many ULPs count as found

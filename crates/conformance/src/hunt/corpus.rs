@@ -5,7 +5,6 @@
 //! output and goal only where it reaches more. The files in `crates/conformance/corpus/` are part of the program; another folder is read
 //! instead of them where one is named.
 
-use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -14,6 +13,7 @@ use include_dir::{Dir, include_dir};
 use serde::Deserialize;
 
 use super::Goal;
+use super::file::{self, hex, unhex, wrong};
 use crate::error::Error;
 
 static EMBEDDED: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/corpus");
@@ -61,6 +61,12 @@ struct Entry {
     input: Vec<String>,
 }
 
+impl file::File for File {
+    fn schema(&self) -> u32 {
+        self.schema
+    }
+}
+
 impl Corpus {
     /// An empty one.
     #[must_use]
@@ -76,28 +82,13 @@ impl Corpus {
     /// # Errors
     /// [`Error::Corpus`], with the place where the file is no TOML or has an unknown key, or what does not fit the probe.
     pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
-        let wrong = |message: String| Error::Corpus {
-            file: name.to_owned(),
-            message,
-        };
-        let file: File =
-            toml::from_str(text).map_err(|error| wrong(error.to_string().trim_end().to_owned()))?;
-        if file.schema != 1 {
-            return Err(wrong(format!(
-                "schema {} is not known here; write schema = 1",
-                file.schema
-            )));
-        }
-        let probe =
-            find(&file.probe).ok_or_else(|| wrong(format!("the library has no probe `{}`", file.probe)))?;
-        let mut corpus = Self::new(&file.probe);
-        for (number, entry) in file.found.into_iter().enumerate() {
-            let entry = entry
-                .read(probe)
-                .map_err(|problem| wrong(format!("found number {}: {problem}", number + 1)))?;
-            corpus.found.push(entry);
-        }
-        Ok(corpus)
+        let file: File = file::parse(name, text)?;
+        let probe = find(&file.probe)
+            .ok_or_else(|| wrong(name, format!("the library has no probe `{}`", file.probe)))?;
+        Ok(Self {
+            found: file::entries(name, file.found, |entry| entry.read(probe))?,
+            probe: file.probe,
+        })
     }
 
     /// The file's text.
@@ -124,14 +115,8 @@ impl Corpus {
 
     /// Takes over what another has found, where it reaches more.
     pub fn merge(&mut self, other: Self) {
-        let mut all: BTreeMap<(usize, Goal), Found> = BTreeMap::new();
-        for found in self.found.drain(..).chain(other.found) {
-            let key = (found.output, found.goal);
-            if all.get(&key).is_none_or(|kept| found.ulps > kept.ulps) {
-                all.insert(key, found);
-            }
-        }
-        self.found = all.into_values().collect();
+        let all = self.found.drain(..).chain(other.found);
+        self.found = file::best(all, |found| (found.output, found.goal), |found| found.ulps);
     }
 }
 
@@ -184,21 +169,18 @@ pub fn embedded() -> Result<Vec<Corpus>, Error> {
 /// # Errors
 /// [`Error::Corpus`].
 pub fn read(folder: &Path) -> Result<Vec<Corpus>, Error> {
-    let wrong = |path: &Path, message: String| Error::Corpus {
-        file: path.display().to_string(),
-        message,
-    };
-    let listed = std::fs::read_dir(folder).map_err(|error| wrong(folder, error.to_string()))?;
+    let failed = |path: &Path, error: std::io::Error| wrong(&path.display().to_string(), error.to_string());
+    let listed = std::fs::read_dir(folder).map_err(|error| failed(folder, error))?;
     let mut files = Vec::new();
     for entry in listed {
-        let path = entry.map_err(|error| wrong(folder, error.to_string()))?.path();
+        let path = entry.map_err(|error| failed(folder, error))?.path();
         if path.extension().is_some_and(|extension| extension == "toml") {
             files.push(path);
         }
     }
     files.sort();
     let one = |path: &std::path::PathBuf| {
-        let text = std::fs::read_to_string(path).map_err(|error| wrong(path, error.to_string()))?;
+        let text = std::fs::read_to_string(path).map_err(|error| failed(path, error))?;
         Corpus::parse(&path.display().to_string(), &text)
     };
     files.iter().map(one).collect()
@@ -208,87 +190,11 @@ fn find(function: &str) -> Option<&'static Probe> {
     PROBES.iter().find(|probe| probe.function() == function)
 }
 
-/// A float as C writes it in hexadecimal: exact, and its bits can be read off.
-pub(crate) fn hex(x: f32) -> String {
-    let bits = x.to_bits();
-    let sign = if bits >> 31 == 1 { "-" } else { "" };
-    let (exponent, mantissa) = ((bits >> 23) & 0xff, bits & 0x007f_ffff);
-    let (lead, power) = match exponent {
-        0 if mantissa == 0 => return format!("{sign}0x0p+0"),
-        0 => (0, -126),
-        _ => (1, exponent as i32 - 127),
-    };
-    let digits = format!("{:06x}", mantissa << 1);
-    let digits = digits.trim_end_matches('0');
-    let point = if digits.is_empty() { "" } else { "." };
-    format!("{sign}0x{lead}{point}{digits}p{power:+}")
-}
-
-/// Reads what [`hex`] writes.
-pub(crate) fn unhex(text: &str) -> Result<f32, String> {
-    let wrong = || format!("`{text}` is no hexadecimal float; they look like -0x1.8p-3");
-    let (negative, rest) = match text.strip_prefix('-') {
-        Some(rest) => (true, rest),
-        None => (false, text),
-    };
-    let (digits, power) = rest
-        .strip_prefix("0x")
-        .and_then(|rest| rest.split_once('p'))
-        .ok_or_else(wrong)?;
-    let power: i32 = power.parse().map_err(|_| wrong())?;
-    let (lead, fraction) = digits.split_once('.').unwrap_or((digits, ""));
-    let all = format!("{lead}{fraction}");
-    let known = all.len() <= 8 && !lead.is_empty() && (-200..=200).contains(&power);
-    let mantissa = u32::from_str_radix(&all, 16)
-        .ok()
-        .filter(|_| known)
-        .ok_or_else(wrong)?;
-    let exact = f64::from(mantissa) * f64::from(power - 4 * fraction.len() as i32).exp2();
-    let x = if negative { -exact } else { exact };
-    if f64::from(x as f32) == x && x.is_finite() {
-        Ok(x as f32)
-    } else {
-        Err(format!("`{text}` is no f32"))
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Corpus, Found, embedded, hex, unhex};
+    use super::{Corpus, Found, embedded};
     use crate::hunt::Goal;
-
-    #[test]
-    fn hexadecimal_floats_are_exact() {
-        for x in [
-            0.0,
-            -0.0,
-            1.0,
-            -1.5,
-            0.1,
-            f32::MAX,
-            f32::MIN_POSITIVE,
-            1e-45,
-            -1.175_493_2e-38,
-            16_777_217.0,
-        ] {
-            let read = unhex(&hex(x)).unwrap();
-            assert_eq!(read.to_bits(), x.to_bits(), "{x:?} is {}", hex(x));
-        }
-        assert_eq!(hex(0.1), "0x1.99999ap-4");
-        for wrong in [
-            "",
-            "1.0",
-            "0x",
-            "0xp1",
-            "0x1",
-            "0x1.gp0",
-            "0x1p999",
-            "0x1.0000001p+0",
-            "nan",
-        ] {
-            assert!(unhex(wrong).is_err(), "{wrong}");
-        }
-    }
+    use crate::hunt::file::tests::refuses;
 
     fn found(output: usize, goal: Goal, ulps: f64) -> Found {
         Found {
@@ -331,14 +237,7 @@ mod tests {
     #[test]
     fn what_is_wrong_with_a_file_is_said() {
         let text = "schema = 1\nprobe = \"normalise\"\n[[found]]\ngoal = \"error\"\noutput = 0\nulps = 1.0\nseed = 1\ninput = [\"0x1p+0\", \"0x0p+0\", \"0x0p+0\"]\n";
-        Corpus::parse("a.toml", text).unwrap();
-        let wrong = |from: &str, to: &str, word: &str| {
-            assert!(text.contains(from), "{from}");
-            let message = Corpus::parse("a.toml", &text.replace(from, to))
-                .unwrap_err()
-                .to_string();
-            assert!(message.contains("a.toml") && message.contains(word), "{message}");
-        };
+        let wrong = |from: &str, to: &str, word: &str| refuses(Corpus::parse, text, (from, to, word));
         wrong("schema = 1", "schema = 2", "schema 2");
         wrong("normalise", "normalize", "`normalize`");
         wrong("goal = \"error\"", "goal = \"eror\"", "eror");

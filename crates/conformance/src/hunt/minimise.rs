@@ -3,12 +3,10 @@
 //! All simplifications of one number are evaluated at once, and the simplest that keeps the score is taken; then the next number. It ends
 //! when a whole pass changes nothing.
 
-use std::time::Instant;
-
 use bossage_bounds::ranges::Point;
 
 use super::search::Found;
-use super::{Goal, Prey, Score, Subject, is_over, slot};
+use super::{Budget, Goal, Prey, Score, Subject, is_over, slot};
 
 /// The share of a score that has to stay.
 const KEPT: f64 = 0.5;
@@ -22,7 +20,7 @@ pub(super) fn plain(
     subject: &dyn Subject,
     found: &mut Found,
     threshold: f64,
-    until: Option<Instant>,
+    budget: &Budget,
 ) -> Result<Vec<Prey>, String> {
     let mut prey = Vec::new();
     if let Some((output, got, point)) = found.refused.clone() {
@@ -46,7 +44,7 @@ pub(super) fn plain(
                 continue;
             }
             let start = Score { ulps, output };
-            let (score, point) = simplified(subject, found, slot, start, point, threshold, until)?;
+            let (score, point) = simplified(subject, found, slot, start, point, threshold, budget)?;
             prey.push(Prey {
                 goal,
                 score,
@@ -65,7 +63,7 @@ fn simplified(
     start: Score,
     mut point: Point,
     threshold: f64,
-    until: Option<Instant>,
+    budget: &Budget,
 ) -> Result<(Score, Point), String> {
     let least = (KEPT * start.ulps).max(threshold);
     let mut score = start;
@@ -74,8 +72,9 @@ fn simplified(
     for _ in 0..PASSES {
         let before = point.clone();
         for scalar in free.iter().copied().take(MOST) {
-            let candidates = candidates(subject, &point, scalar);
-            if candidates.is_empty() || is_over(until) {
+            let mut candidates = candidates(subject, &point, scalar);
+            candidates.truncate(budget.left(found.evaluated));
+            if candidates.is_empty() || is_over(budget.until) {
                 continue;
             }
             let measured = subject.measure(&candidates)?;

@@ -12,6 +12,7 @@
 //! machine's affair. So the inputs themselves are kept ([`corpus`]), and ordinary runs replay them.
 
 pub mod corpus;
+pub(crate) mod file;
 mod library;
 mod minimise;
 mod role;
@@ -64,11 +65,14 @@ pub struct Options {
     pub seed: u64,
     /// Time for all subjects together; no limit when `None`.
     pub time: Option<Duration>,
-    /// The most inputs that are evaluated for one subject; no limit when `None`.
+    /// The most inputs that are evaluated for one subject, those that make a finding plain among them; no limit when `None`.
     pub evaluations: Option<usize>,
     /// Only what reaches so many ULPs is a finding.
     pub threshold: f64,
 }
+
+/// The share of a budget that is kept for making plain what was found.
+const PLAIN: f64 = 0.2;
 
 /// Seconds that a hunt takes, if nothing else is said.
 pub const SECONDS: f64 = 60.0;
@@ -178,6 +182,13 @@ pub(crate) struct Budget {
     pub(crate) evaluations: usize,
 }
 
+impl Budget {
+    /// How many evaluations are left after so many.
+    pub(crate) fn left(&self, evaluated: usize) -> usize {
+        self.evaluations.saturating_sub(evaluated)
+    }
+}
+
 /// A hard input of a subject, made plain.
 pub(crate) struct Prey {
     pub(crate) goal: Goal,
@@ -192,14 +203,28 @@ pub(crate) fn hunt(
     options: &Options,
     time: Option<Duration>,
 ) -> Result<(Vec<Prey>, usize), String> {
-    let after = |share: f64| time.map(|time| Instant::now() + time.mul_f64(share));
-    let budget = Budget {
-        until: after(0.8),
-        evaluations: options.evaluations.unwrap_or(usize::MAX),
+    let until = |share: f64| time.map(|time| Instant::now() + time.mul_f64(share));
+    let all = options.evaluations.unwrap_or(usize::MAX);
+    let searching = Budget {
+        until: until(1.0 - PLAIN),
+        evaluations: all - (all as f64 * PLAIN) as usize,
     };
     let mut seed = Seed::new(options.seed);
-    let mut found = search::search(subject, &budget, &mut seed)?;
-    let prey = minimise::plain(subject, &mut found, options.threshold, after(0.2))?;
+    let mut found = search::Found::new(subject);
+    found.search(subject, &searching, &mut seed)?;
+    if !found.reaches(options.threshold) {
+        // Nothing is there to make plain yet.
+        let rest = Budget {
+            evaluations: all,
+            ..searching
+        };
+        found.search(subject, &rest, &mut seed)?;
+    }
+    let making_plain = Budget {
+        until: until(PLAIN),
+        evaluations: all,
+    };
+    let prey = minimise::plain(subject, &mut found, options.threshold, &making_plain)?;
     Ok((prey, found.evaluated))
 }
 

@@ -45,6 +45,50 @@ impl Pool {
 }
 
 impl Found {
+    /// Nothing yet.
+    pub(super) fn new(subject: &dyn Subject) -> Self {
+        Self {
+            pools: vec![Pool::default(); 2 * subject.keys()],
+            refused: None,
+            evaluated: 0,
+        }
+    }
+
+    /// Whether anything is to be reported.
+    pub(super) fn reaches(&self, threshold: f64) -> bool {
+        let best = |pool: &Pool| pool.0.first().is_some_and(|(ulps, _, _)| *ulps >= threshold);
+        self.refused.is_some() || self.pools.iter().any(best)
+    }
+
+    /// Searches on until the budget is spent, to the very evaluation, or something is refused.
+    pub(super) fn search(
+        &mut self,
+        subject: &dyn Subject,
+        budget: &Budget,
+        seed: &mut Seed,
+    ) -> Result<(), String> {
+        let groups = subject.groups();
+        let mut round = 0;
+        while self.refused.is_none() && (self.evaluated == 0 || !is_over(budget.until)) {
+            let size = BATCH.min(budget.left(self.evaluated));
+            if size == 0 {
+                break;
+            }
+            let points: Vec<Point> = (0..size)
+                .map(|_| {
+                    let parent = parent(subject, self, seed).filter(|_| round % DRAWN != 0);
+                    match parent {
+                        Some(parent) => child(subject, &groups, self, parent, seed),
+                        None => subject.sample(seed),
+                    }
+                })
+                .collect();
+            self.try_all(subject, &points)?;
+            round += 1;
+        }
+        Ok(())
+    }
+
     /// Measures inputs and keeps the best.
     pub(super) fn try_all(
         &mut self,
@@ -65,34 +109,6 @@ impl Found {
         }
         Ok(measured)
     }
-}
-
-pub(super) fn search(subject: &dyn Subject, budget: &Budget, seed: &mut Seed) -> Result<Found, String> {
-    let mut found = Found {
-        pools: vec![Pool::default(); 2 * subject.keys()],
-        refused: None,
-        evaluated: 0,
-    };
-    let groups = subject.groups();
-    let mut round = 0;
-    while found.refused.is_none()
-        && found.evaluated < budget.evaluations
-        && (round == 0 || !is_over(budget.until))
-    {
-        let size = BATCH.min(budget.evaluations - found.evaluated);
-        let points: Vec<Point> = (0..size)
-            .map(|_| {
-                let parent = parent(subject, &found, seed).filter(|_| round % DRAWN != 0);
-                match parent {
-                    Some(parent) => child(subject, &groups, &found, parent, seed),
-                    None => subject.sample(seed),
-                }
-            })
-            .collect();
-        found.try_all(subject, &points)?;
-        round += 1;
-    }
-    Ok(found)
 }
 
 /// One of the best of any output and goal.

@@ -31,6 +31,10 @@ fn options(evaluations: usize, threshold: f64) -> Options {
 }
 
 fn hunt(text: &str, threshold: f64) -> Hunted {
+    hunt_with(text, &options(6000, threshold))
+}
+
+fn hunt_with(text: &str, options: &Options) -> Hunted {
     let shader = Shader::parse("planted.wgsl", &Source::Wgsl(text.to_owned())).unwrap();
     let declared = Declared::parse("planted.ranges.toml", RANGES).unwrap();
     let user_options = user::Options {
@@ -45,8 +49,7 @@ fn hunt(text: &str, threshold: f64) -> Hunted {
         original: None,
         arguments: Vec::new(),
     };
-    let options = options(6000, threshold);
-    hunt_shader(&shader, Some(&declared), &user_options, &options, &mut |_| {}).unwrap()
+    hunt_shader(&shader, Some(&declared), &user_options, options, &mut |_| {}).unwrap()
 }
 
 #[test]
@@ -74,7 +77,25 @@ fn without_the_defect_nothing_is_found() {
     let sound = PLANTED.replace("x * x - 2.345", "x * x + 2.345");
     let hunted = hunt(&sound, 64.0);
     assert_eq!(hunted.findings, []);
-    assert!(hunted.evaluated[0].1 >= 6000);
+    assert_eq!(hunted.evaluated[0].1, 6000);
+}
+
+/// Neither a round of the search nor the candidates of a number run past the budget.
+#[test]
+fn a_number_of_evaluations_is_never_exceeded() {
+    let sound = PLANTED.replace("x * x - 2.345", "x * x + 2.345");
+    for evaluations in [1, 127, 300, 1001] {
+        let spent = |text: &str, threshold: f64| {
+            let hunted = hunt_with(text, &options(evaluations, threshold));
+            (hunted.evaluated[0].1, hunted.findings.len())
+        };
+        assert_eq!(spent(&sound, 64.0), (evaluations, 0));
+        let (evaluated, found) = spent(&sound, 0.1);
+        assert!(
+            found > 0 && evaluated <= evaluations,
+            "{evaluated} of {evaluations}"
+        );
+    }
 }
 
 /// The published form at a grazing view, the defect that its article warns of: an elevation over a small V.z, magnified.

@@ -12,7 +12,7 @@ use serde::Deserialize;
 
 use crate::error::Error;
 use crate::hunt::Goal;
-use crate::hunt::corpus::{hex, unhex};
+use crate::hunt::file::{self, hex, unhex, wrong};
 
 /// The hard inputs of a shader.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -67,6 +67,12 @@ struct Entry {
     texels: BTreeMap<String, Vec<String>>,
 }
 
+impl file::File for File {
+    fn schema(&self) -> u32 {
+        self.schema
+    }
+}
+
 impl Corpus {
     /// An empty one.
     #[must_use]
@@ -83,26 +89,12 @@ impl Corpus {
     /// # Errors
     /// [`Error::Corpus`], with the place where the file is no TOML or has an unknown key.
     pub fn parse(name: &str, text: &str) -> Result<Self, Error> {
-        let wrong = |message: String| Error::Corpus {
+        let file: File = file::parse(name, text)?;
+        Ok(Self {
             file: name.to_owned(),
-            message,
-        };
-        let file: File =
-            toml::from_str(text).map_err(|error| wrong(error.to_string().trim_end().to_owned()))?;
-        if file.schema != 1 {
-            let schema = file.schema;
-            return Err(wrong(format!(
-                "schema {schema} is not known here; write schema = 1"
-            )));
-        }
-        let mut corpus = Self::new(name, &file.shader);
-        for (number, entry) in (1..).zip(file.found) {
-            let found = entry
-                .read()
-                .map_err(|problem| wrong(format!("found number {number}: {problem}")))?;
-            corpus.found.push(found);
-        }
-        Ok(corpus)
+            shader: file.shader,
+            found: file::entries(name, file.found, Entry::read)?,
+        })
     }
 
     /// The file's text.
@@ -142,14 +134,9 @@ impl Corpus {
 
     /// Takes over what another has found, where it reaches more.
     pub fn merge(&mut self, other: Vec<Found>) {
-        let mut all: BTreeMap<(String, String, Goal), Found> = BTreeMap::new();
-        for found in self.found.drain(..).chain(other) {
-            let key = (found.entry.clone(), found.output.clone(), found.goal);
-            if all.get(&key).is_none_or(|kept| found.ulps > kept.ulps) {
-                all.insert(key, found);
-            }
-        }
-        self.found = all.into_values().collect();
+        let key = |found: &Found| (found.entry.clone(), found.output.clone(), found.goal);
+        let all = self.found.drain(..).chain(other);
+        self.found = file::best(all, key, |found| found.ulps);
     }
 
     /// The inputs of an entry point.
@@ -160,11 +147,13 @@ impl Corpus {
         let numbered = (1..).zip(&self.found);
         let own = numbered.filter(|(_, found)| found.entry == entry);
         own.map(|(number, found)| {
-            found.point(inputs).map_err(|problem| Error::Corpus {
-                file: self.file.clone(),
-                message: format!(
-                    "found number {number}: {problem}; the shader or its ranges have changed since: take this entry out, or hunt again"
-                ),
+            found.point(inputs).map_err(|problem| {
+                wrong(
+                    &self.file,
+                    format!(
+                        "found number {number}: {problem}; the shader or its ranges have changed since: take this entry out, or hunt again"
+                    ),
+                )
             })
         })
         .collect()
@@ -174,14 +163,14 @@ impl Corpus {
     pub(super) fn check(&self, known: &[String]) -> Result<(), Error> {
         match self.found.iter().find(|found| !known.contains(&found.entry)) {
             None => Ok(()),
-            Some(found) => Err(Error::Corpus {
-                file: self.file.clone(),
-                message: format!(
+            Some(found) => Err(wrong(
+                &self.file,
+                format!(
                     "the shader has no entry point `{}`; it has: {}",
                     found.entry,
                     known.join(", ")
                 ),
-            }),
+            )),
         }
     }
 }
@@ -313,6 +302,7 @@ fn number(text: &str) -> Result<f64, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hunt::file::tests::refuses;
 
     fn found(output: &str, ulps: f64) -> Found {
         Found {
@@ -350,13 +340,7 @@ mod tests {
         let mut corpus = Corpus::new("a.toml", "a");
         corpus.merge(vec![found("r", 2.0)]);
         let text = corpus.text();
-        let wrong = |from: &str, to: &str, word: &str| {
-            assert!(text.contains(from), "{from} is not in\n{text}");
-            let error = Corpus::parse("a.toml", &text.replace(from, to))
-                .unwrap_err()
-                .to_string();
-            assert!(error.contains("a.toml") && error.contains(word), "{error}");
-        };
+        let wrong = |from: &str, to: &str, word: &str| refuses(Corpus::parse, &text, (from, to, word));
         wrong("schema = 1", "schema = 9", "schema 9");
         wrong("goal = \"error\"", "goal = \"eror\"", "eror");
         wrong("seed = 1", "sed = 1", "sed");
