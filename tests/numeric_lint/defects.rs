@@ -26,20 +26,20 @@ pub(crate) struct Named {
     pub(crate) shows: fn(&Linted, &Finding),
 }
 
-const fn named(
-    shader: &'static str,
-    rule: Rule,
-    line: &'static str,
-    case: &'static str,
-    shows: fn(&Linted, &Finding),
-) -> Named {
-    Named {
-        shader,
-        rule,
-        line,
-        case,
-        shows,
-    }
+type Row = (Rule, &'static str, &'static str, fn(&Linted, &Finding));
+
+/// All findings.
+pub(crate) fn named() -> impl Iterator<Item = Named> {
+    let rows = |&(shader, rows): &(&'static str, &'static [Row])| {
+        rows.iter().map(move |&(rule, line, case, shows)| Named {
+            shader,
+            rule,
+            line,
+            case,
+            shows,
+        })
+    };
+    FINDINGS.iter().flat_map(rows)
 }
 
 /// Whether a function or kernel belongs to a technique, or to what all of them stand on.
@@ -50,291 +50,158 @@ pub(crate) fn of_technique(shader: &str, technique: &str) -> bool {
     }
 }
 
-/// The findings, by function.
-pub(crate) const NAMED: &[Named] = &[
+// Lines that several defects are named at.
+const NORMALIZE: &str = "return normalize(v);";
+const POWER: &str = "return pow(saturate(n_dot_h), shininess);";
+const OCTAHEDRON: &str = "let p = direction.xy / ";
+const ROOT: &str = "return vec3f(xy, sqrt(";
+const ACROSS: &str = "let tangent = cross(normal, across);";
+const AREA: &str = "let inverse_area = 1.0 / ";
+const REJECTED: &str = "let tangent = tangent_sum - normal * dot(normal, tangent_sum);";
+const ELEVATION: &str = "return uv + z * view_dir_ts.xy / view_dir_ts.z;";
+
+/// The findings, by function: rule, how the line begins, the defect, and what its witness shows.
+const FINDINGS: &[(&str, &[Row])] = &[
     // The zero vector, and lengths below about 1e-19 and beyond about 1e19.
-    named(
+    (
         "normalise_published",
-        Rule::NormaliseZero,
-        "return normalize(v);",
-        "tiny_light",
-        any,
-    ),
-    named(
-        "normalise_published",
-        Rule::Underflow,
-        "return normalize(v);",
-        "tiny_light",
-        tiny,
-    ),
-    named(
-        "normalise_published",
-        Rule::Overflow,
-        "return normalize(v);",
-        "huge_light",
-        huge,
-    ),
-    named(
-        "normalise_published",
-        Rule::NanOutput,
-        "return normalize(v);",
-        "tiny_light",
-        any,
+        &[
+            (Rule::NormaliseZero, NORMALIZE, "tiny_light", any),
+            (Rule::Underflow, NORMALIZE, "tiny_light", tiny),
+            (Rule::Overflow, NORMALIZE, "huge_light", huge),
+            (Rule::NanOutput, NORMALIZE, "tiny_light", any),
+        ],
     ),
     // L = −V.
-    named(
+    (
         "half_vector_published",
-        Rule::VanishingSum,
-        "return normalise_published(light_dir + view_dir);",
-        "opposite_light",
-        opposite,
+        &[
+            (
+                Rule::VanishingSum,
+                "return normalise_published(light_dir + view_dir);",
+                "opposite_light",
+                opposite,
+            ),
+            (Rule::NormaliseZero, NORMALIZE, "opposite_light", opposite),
+            (Rule::NanOutput, NORMALIZE, "opposite_light", opposite),
+        ],
     ),
-    named(
-        "half_vector_published",
-        Rule::NormaliseZero,
-        "return normalize(v);",
-        "opposite_light",
-        opposite,
-    ),
-    named(
-        "half_vector_published",
-        Rule::NanOutput,
-        "return normalize(v);",
-        "opposite_light",
-        opposite,
-    ),
-    named(
+    (
         "blinn_phong_published",
-        Rule::NormaliseZero,
-        "return normalize(v);",
-        "opposite_light",
-        any,
+        &[
+            (Rule::NormaliseZero, NORMALIZE, "opposite_light", any),
+            // pow(0, p).
+            (Rule::PowerDomain, POWER, "zero_to_the_zeroth", any),
+        ],
     ),
-    // pow(0, p).
-    named(
-        "blinn_phong_published",
-        Rule::PowerDomain,
-        "return pow(saturate(n_dot_h), shininess);",
-        "zero_to_the_zeroth",
-        any,
-    ),
-    named(
+    (
         "highlight_power_published",
-        Rule::PowerDomain,
-        "return pow(saturate(n_dot_h), shininess);",
-        "zero_to_the_zeroth",
-        any,
+        &[(Rule::PowerDomain, POWER, "zero_to_the_zeroth", any)],
     ),
     // The sum of the magnitudes is zero.
-    named(
+    (
         "codec_octahedral_encode_published",
-        Rule::DivisionByZero,
-        "let p = direction.xy / ",
-        "no_direction",
-        any,
-    ),
-    named(
-        "codec_octahedral_encode_published",
-        Rule::NanOutput,
-        "let p = direction.xy / ",
-        "no_direction",
-        any,
+        &[
+            (Rule::DivisionByZero, OCTAHEDRON, "no_direction", any),
+            (Rule::NanOutput, OCTAHEDRON, "no_direction", any),
+        ],
     ),
     // x² + y² > 1.
-    named(
+    (
         "codec_two_channel_decode_published",
-        Rule::RootDomain,
-        "return vec3f(xy, sqrt(",
-        "outside_the_circle",
-        any,
-    ),
-    named(
-        "codec_two_channel_decode_published",
-        Rule::NanOutput,
-        "return vec3f(xy, sqrt(",
-        "outside_the_circle",
-        any,
+        &[
+            (Rule::RootDomain, ROOT, "outside_the_circle", any),
+            (Rule::NanOutput, ROOT, "outside_the_circle", any),
+        ],
     ),
     // L = 0, and its length. NaN is clamped to 0.
-    named(
+    (
         "dot3_published",
-        Rule::NormaliseZero,
-        "return normalize(v);",
-        "zero_light",
-        any,
+        &[
+            (Rule::NormaliseZero, NORMALIZE, "zero_light", any),
+            (Rule::Overflow, NORMALIZE, "zero_light", any),
+        ],
     ),
-    named(
-        "dot3_published",
-        Rule::Overflow,
-        "return normalize(v);",
-        "zero_light",
-        any,
-    ),
-    named(
+    (
         "light_to_colour_published",
-        Rule::NormaliseZero,
-        "return normalize(v);",
-        "zero_light",
-        any,
-    ),
-    named(
-        "light_to_colour_published",
-        Rule::Overflow,
-        "return normalize(v);",
-        "zero_light",
-        any,
-    ),
-    named(
-        "light_to_colour_published",
-        Rule::NanOutput,
-        "return normalize(v);",
-        "zero_light",
-        any,
+        &[
+            (Rule::NormaliseZero, NORMALIZE, "zero_light", any),
+            (Rule::Overflow, NORMALIZE, "zero_light", any),
+            (Rule::NanOutput, NORMALIZE, "zero_light", any),
+        ],
     ),
     // N ∝ (−1, 1, 1): the helper axis is parallel to the normal; and beside it.
-    named(
+    (
         "frame_from_normal_unit_published",
-        Rule::VanishingSum,
-        "let tangent = cross(normal, across);",
-        "axis_parallel",
-        on_the_axis,
-    ),
-    named(
-        "frame_from_normal_unit_published",
-        Rule::NormaliseZero,
-        "return normalize(v);",
-        "axis_parallel",
-        on_the_axis,
-    ),
-    named(
-        "frame_from_normal_unit_published",
-        Rule::NanOutput,
-        "return normalize(v);",
-        "axis_parallel",
-        on_the_axis,
-    ),
-    named(
-        "frame_from_normal_unit_published",
-        Rule::Cancellation,
-        "let tangent = cross(normal, across);",
-        "axis_near",
-        beside_the_axis,
+        &[
+            (Rule::VanishingSum, ACROSS, "axis_parallel", on_the_axis),
+            (Rule::NormaliseZero, NORMALIZE, "axis_parallel", on_the_axis),
+            (Rule::NanOutput, NORMALIZE, "axis_parallel", on_the_axis),
+            (Rule::Cancellation, ACROSS, "axis_near", beside_the_axis),
+        ],
     ),
     // 1 + n.z near −z.
-    named(
+    (
         "frame_frisvad_published",
-        Rule::Cancellation,
-        "let a = 1.0 / (1.0 + normal.z);",
-        "frisvad_near_minus_z",
-        near_minus_z,
+        &[(
+            Rule::Cancellation,
+            "let a = 1.0 / (1.0 + normal.z);",
+            "frisvad_near_minus_z",
+            near_minus_z,
+        )],
     ),
     // A triangle without texture area, one whose texture area is rounding, one without area.
-    named(
+    (
         "frame_from_uv_triangle_published",
-        Rule::DivisionByZero,
-        "let inverse_area = 1.0 / ",
-        "no_texture_area",
-        any,
-    ),
-    named(
-        "frame_from_uv_triangle_published",
-        Rule::VanishingSum,
-        "let inverse_area = 1.0 / ",
-        "no_texture_area",
-        any,
-    ),
-    named(
-        "frame_from_uv_triangle_published",
-        Rule::NanOutput,
-        "let tangent = ",
-        "no_texture_area",
-        any,
-    ),
-    named(
-        "frame_from_uv_triangle_published",
-        Rule::Cancellation,
-        "let inverse_area = 1.0 / ",
-        "quantised_texture",
-        collinear,
-    ),
-    named(
-        "frame_from_uv_triangle_published",
-        Rule::NormaliseZero,
-        "return normalize(v);",
-        "no_area",
-        any,
-    ),
-    named(
-        "frame_from_uv_triangle_published",
-        Rule::VanishingSum,
-        "return TriangleFrame(normalise_published(cross(p, q))",
-        "no_area",
-        parallel_edges,
-    ),
-    named(
-        "frame_from_uv_triangle_published",
-        Rule::NanOutput,
-        "return normalize(v);",
-        "no_area",
-        any,
+        &[
+            (Rule::DivisionByZero, AREA, "no_texture_area", any),
+            (Rule::VanishingSum, AREA, "no_texture_area", any),
+            (Rule::NanOutput, "let tangent = ", "no_texture_area", any),
+            (Rule::Cancellation, AREA, "quantised_texture", collinear),
+            (Rule::NormaliseZero, NORMALIZE, "no_area", any),
+            (
+                Rule::VanishingSum,
+                "return TriangleFrame(normalise_published(cross(p, q))",
+                "no_area",
+                parallel_edges,
+            ),
+            (Rule::NanOutput, NORMALIZE, "no_area", any),
+        ],
     ),
     // Summed over the triangles of a vertex: opposite tangents, a tangent along the normal, and what is normalised of them.
-    named(
+    (
         "frame_from_uv_vertices_published",
-        Rule::VanishingSum,
-        "sum.tangent += frames[",
-        "mirrored_neighbours",
-        mirrored,
-    ),
-    named(
-        "frame_from_uv_vertices_published",
-        Rule::VanishingSum,
-        "let tangent = tangent_sum - normal * dot(normal, tangent_sum);",
-        "tangent_along_normal",
-        along_the_normal,
-    ),
-    named(
-        "frame_from_uv_vertices_published",
-        Rule::Cancellation,
-        "let tangent = tangent_sum - normal * dot(normal, tangent_sum);",
-        "tangent_along_normal",
-        nearly_along_the_normal,
-    ),
-    named(
-        "frame_from_uv_vertices_published",
-        Rule::NormaliseZero,
-        "return normalize(v);",
-        "mirrored_neighbours",
-        any,
-    ),
-    named(
-        "frame_from_uv_vertices_published",
-        Rule::NanOutput,
-        "return normalize(v);",
-        "mirrored_neighbours",
-        any,
+        &[
+            (
+                Rule::VanishingSum,
+                "sum.tangent += frames[",
+                "mirrored_neighbours",
+                mirrored,
+            ),
+            (
+                Rule::VanishingSum,
+                REJECTED,
+                "tangent_along_normal",
+                along_the_normal,
+            ),
+            (
+                Rule::Cancellation,
+                REJECTED,
+                "tangent_along_normal",
+                nearly_along_the_normal,
+            ),
+            (Rule::NormaliseZero, NORMALIZE, "mirrored_neighbours", any),
+            (Rule::NanOutput, NORMALIZE, "mirrored_neighbours", any),
+        ],
     ),
     // V.z = 0, and what the quotient comes to on the way there.
-    named(
+    (
         "parallax_offset_published",
-        Rule::DivisionByZero,
-        "return uv + z * view_dir_ts.xy / view_dir_ts.z;",
-        "flat_view",
-        any,
-    ),
-    named(
-        "parallax_offset_published",
-        Rule::NanOutput,
-        "return uv + z * view_dir_ts.xy / view_dir_ts.z;",
-        "flat_view",
-        any,
-    ),
-    named(
-        "parallax_offset_published",
-        Rule::DivisionByZero,
-        "return uv + z * view_dir_ts.xy / view_dir_ts.z;",
-        "grazing_view",
-        any,
+        &[
+            (Rule::DivisionByZero, ELEVATION, "flat_view", any),
+            (Rule::NanOutput, ELEVATION, "flat_view", any),
+            (Rule::DivisionByZero, ELEVATION, "grazing_view", any),
+        ],
     ),
 ];
 

@@ -11,7 +11,7 @@ mod shows;
 
 use bossage_bounds::lint::{Finding, Options, Rule};
 use bossage_shaders::{Form, Library, PROBES, Probe};
-use defects::{FORMULAS, NAMED, Named, of_technique};
+use defects::{FORMULAS, Named, named, of_technique};
 use linted::{Linted, kernel, probe};
 
 /// Counts end the work, not the clock.
@@ -33,13 +33,13 @@ fn found<'l>(linted: &'l Linted, named: &Named) -> Option<&'l Finding> {
 #[test]
 fn published_defects_are_named_at_their_lines_with_a_witness() {
     let library = Library::embedded().unwrap();
-    let mut shaders: Vec<&str> = NAMED.iter().map(|named| named.shader).collect();
+    let mut shaders: Vec<&str> = named().map(|named| named.shader).collect();
     shaders.dedup();
     let mut missing = Vec::new();
     for shader in shaders {
         let linted = linted::published(&library, shader, &options());
-        for named in NAMED.iter().filter(|named| named.shader == shader) {
-            match found(&linted, named) {
+        for named in named().filter(|named| named.shader == shader) {
+            match found(&linted, &named) {
                 Some(finding) => (named.shows)(&linted, finding),
                 None => missing.push(format!(
                     "{shader}: {} at `{}` ({}) is not named: {:#?}",
@@ -74,29 +74,26 @@ fn known_defects() -> Vec<(String, String)> {
 fn every_known_defect_is_named_or_is_no_matter_of_numbers() {
     let known = known_defects();
     assert!(known.len() > 40, "{known:?}");
-    let named = |technique: &str, case: &str| {
-        NAMED
-            .iter()
-            .any(|n| n.case == case && of_technique(n.shader, technique))
-    };
+    let is_named =
+        |technique: &str, case: &str| named().any(|n| n.case == case && of_technique(n.shader, technique));
     for (technique, case) in &known {
         let formula = FORMULAS.iter().any(|f| f.0 == technique && f.1 == case);
         assert!(
-            named(technique, case) != formula,
-            "{technique}, {case}: either in NAMED or, with a reason, in FORMULAS"
+            is_named(technique, case) != formula,
+            "{technique}, {case}: either in FINDINGS or, with a reason, in FORMULAS"
         );
     }
     for (technique, case, _) in FORMULAS {
         let listed = known.iter().any(|(t, c)| t == technique && c == case);
         assert!(listed, "{technique}, {case} is in FORMULAS, but is no defect");
     }
-    for named in NAMED {
+    for named in named() {
         let listed = known
             .iter()
             .any(|(t, c)| c == named.case && of_technique(named.shader, t));
         assert!(
             listed,
-            "{}, {} is in NAMED, but is no defect",
+            "{}, {} is in FINDINGS, but is no defect",
             named.shader, named.case
         );
     }
