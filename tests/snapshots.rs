@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use bossage_shaders::{Albedo, Alpha, Transform};
 use bossage_shaders::{
@@ -15,26 +15,13 @@ use bossage_shaders::{
     PROBES, Probe, Relief, ReliefLight, ReliefSearch, ReliefTechnique, Stage, TECHNIQUES, Technique,
 };
 use bossage_translate::emit::spirv_listing;
-use bossage_translate::{Contents, Cost, EmitOptions, Emitted, Shader, Source, Target, emit, manifest};
+use bossage_translate::{Contents, Cost, EmitOptions, Emitted, Shader, Target, emit, manifest};
+
+mod support;
+
+use support::{modules, parse, settings, snapshot_dir};
 
 const INDEX: &str = "permutations@index";
-
-fn snapshot_dir() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots")
-}
-
-fn settings() -> insta::Settings {
-    let mut settings = insta::Settings::clone_current();
-    settings.set_snapshot_path(snapshot_dir());
-    settings.set_prepend_module_to_snapshot(false);
-    settings.set_omit_expression(true);
-    settings
-}
-
-fn parse(assembled: &AssembledShader) -> Shader {
-    Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl.clone()))
-        .unwrap_or_else(|why| panic!("{why}"))
-}
 
 fn emit_all(shader: &Shader) -> Vec<Emitted> {
     let options = EmitOptions::default();
@@ -161,8 +148,8 @@ fn index_line(assembled: &AssembledShader) -> String {
 
 fn cost(cost: &Cost) -> String {
     format!(
-        "ops {} samples {} branches {} loops {}",
-        cost.ops, cost.samples, cost.branches, cost.loops
+        "ops {} samples {} loads {} branches {} loops {}",
+        cost.ops, cost.samples, cost.texture_loads, cost.branches, cost.loops
     )
 }
 
@@ -171,25 +158,6 @@ fn length(contents: &Contents) -> usize {
         Contents::Text(text) => text.matches(';').count(),
         Contents::Binary(bytes) => bytes.len() / 4,
     }
-}
-
-/// Every module that some canonical feature set uses, by name.
-fn modules(library: &Library) -> Vec<AssembledShader> {
-    let mut modules = std::collections::BTreeMap::new();
-    for set in FeatureSet::reachable() {
-        for &stage in set.stages() {
-            let assembled = library
-                .assemble_surface(&set, stage)
-                .expect("every reachable set assembles");
-            let before = modules.insert(assembled.name.clone(), assembled.clone());
-            assert!(
-                before.is_none_or(|b: AssembledShader| b == assembled),
-                "{}: one name, two texts",
-                assembled.name
-            );
-        }
-    }
-    modules.into_values().collect()
 }
 
 #[test]
@@ -243,6 +211,7 @@ fn orphan(path: &Path, source: &str, taken: &BTreeSet<String>) -> Option<String>
     let unknown = ![
         source,
         "crates/cli/tests/help.rs",
+        "tests/instructions.rs",
         "crates/conformance/tests/widths.rs",
     ]
     .contains(&from);
