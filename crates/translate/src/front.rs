@@ -40,7 +40,8 @@ fn parse_spirv(name: &str, bytes: &[u8]) -> Result<Module, Diagnostic> {
         let message = format!("{} bytes are no whole number of SPIR-V words", bytes.len());
         return Err(Diagnostic::new(Code::Parse, message).in_file(name));
     }
-    naga::front::spv::parse_u8_slice(bytes, &options)
+    let repaired = crate::spirv::repaired(bytes);
+    naga::front::spv::parse_u8_slice(repaired.as_deref().unwrap_or(bytes), &options)
         .map_err(|error| Diagnostic::new(Code::Parse, chain(&error)).in_file(name))
 }
 

@@ -55,6 +55,7 @@ mod repairs;
 mod resources;
 pub mod shader;
 pub mod source;
+mod spirv;
 pub mod target;
 mod type_name;
 
