@@ -12,10 +12,6 @@ fn plan_says_why() {
     let scene = repository("examples/brick_wall.toml");
     let table = bossage(&["plan", text(&scene)]).exits(0).stdout;
     assert!(
-        table.contains("material bricks: technique steep_parallax layers=8 (auto)"),
-        "{table}"
-    );
-    assert!(
         table.contains("kept     relief") && table.contains("dropped  light_loop"),
         "{table}"
     );
@@ -25,6 +21,14 @@ fn plan_says_why() {
     for key in ["name", "technique", "permutation"] {
         assert!(material[key].is_string(), "{key}");
     }
+    // Which it is depends on the bundled profile's figures.
+    let technique = material["technique"].as_str().unwrap();
+    let chosen = format!("material bricks: technique {technique}");
+    let line = table.lines().find(|line| line.starts_with(&chosen));
+    assert!(
+        technique != "none" && line.is_some_and(|line| line.contains("(auto)")),
+        "{table}"
+    );
     for effect in material["effects"].as_array().unwrap() {
         assert!(effect["id"].is_string() && effect["reason"].is_string() && effect["evidence"].is_object());
         assert!(["kept", "dropped"].contains(&effect["state"].as_str().unwrap()));

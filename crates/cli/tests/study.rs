@@ -202,6 +202,10 @@ fn a_profile_needs_a_driver() {
     small(&out, &["--calibrate", text(&profile)])
         .exits(3)
         .says(&["--calibrate needs a driver"]);
+    // One setting a technique does not tell a ray's price from a step's.
+    small(&out, &["--calibrate", text(&profile), "--quick"])
+        .exits(2)
+        .says(&["--quick"]);
     assert!(entries(folder.path()).is_empty());
 }
 

@@ -42,6 +42,7 @@ pub mod frame_from_uv;
 pub mod frame_mikktspace;
 pub mod height_to_normal;
 pub mod height_to_normal_forward;
+pub mod height_to_normal_fourth_order;
 pub mod light_to_tangent;
 pub mod normal_mips;
 pub mod normal_transform;

@@ -176,6 +176,8 @@ pub const PROBES: &[Probe] = &[
         (here: F32 Height, right: F32 Height, after: F32 Height, slope: Vec2 Slope) -> (normal: Vec3 Direction)),
     probe!(height_to_normal_forward_published, "techniques"/height_to_normal_forward, Published,
         (here: F32 Byte, next_row: F32 Byte, next_column: F32 Byte, height_scale: F32 Scale) -> (normal: Vec3 Direction)),
+    probe!(height_to_normal_fourth_order, "techniques"/height_to_normal_fourth_order, Hardened,
+        (along_u: Vec4 Height, along_v: Vec4 Height, slope: Vec2 Slope) -> (normal: Vec3 Direction)),
     probe!(light_to_tangent, "techniques"/light_to_tangent, Hardened,
         (tangent: Vec3 Unit, bitangent_dir: Vec3 Unit, normal: Vec3 Unit, light: Vec3 Vector) -> (light_ts: Vec3 Output)),
     probe!(light_to_tangent_world_space, "techniques"/light_to_tangent, Hardened,

@@ -150,6 +150,12 @@ pub const TECHNIQUES: &[Technique] = &[
         source: HEIGHT_MAPS,
     },
     Technique {
+        id: "height_to_normal_fourth_order",
+        files: &["techniques/height_to_normal_fourth_order.wesl"],
+        forms: HARDENED,
+        source: "Fornberg, Generation of Finite Difference Formulas on Arbitrarily Spaced Grids (1988)",
+    },
+    Technique {
         id: "light_to_tangent",
         files: &["techniques/light_to_tangent.wesl"],
         forms: HARDENED,

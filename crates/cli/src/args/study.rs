@@ -87,7 +87,7 @@ pub(crate) struct Measured {
     #[arg(long)]
     pub(crate) fresh: bool,
     /// Write what a ray and a step of each technique cost on this adapter, as a cost profile for scenes
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "quick")]
     pub(crate) calibrate: Option<PathBuf>,
     /// What the driver is given: the emitted SPIR-V as it is, or WGSL with wgpu's checks of bounds and loops
     #[arg(long, value_name = "ROUTE", default_value = "spirv")]

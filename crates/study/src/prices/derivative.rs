@@ -1,7 +1,7 @@
-//! `derivative`: normals of a height map by forward and central differences, in degrees.
+//! `derivative`: normals of a height map by forward, central and fourth-order differences, in degrees.
 //!
 //! The surface is a sum of waves, so its normal is known; heights are floats, so that nothing but the difference errs. Waves of 8 to 64
-//! texels are equally steep: with the length the error of the orders falls by 2 and by 4.
+//! texels are equally steep: with the length the error of the orders falls by 2, 4 and 16.
 
 use glam::DVec3;
 
@@ -18,7 +18,11 @@ pub(super) const TEXT: &str = include_str!("kernels/derivative.wesl");
 /// Lengths of the waves, texels.
 const LENGTHS: [u32; 4] = [8, 16, 32, 64];
 
-const ORDERS: [(&str, &str); 2] = [("forward", "forward_at_texels"), ("central", "central_at_texels")];
+const ORDERS: [(&str, &str); 3] = [
+    ("forward", "forward_at_texels"),
+    ("central", "central_at_texels"),
+    ("fourth order", "fourth_order_at_texels"),
+];
 
 /// A kernel over the texels of a surface that is stored in that way.
 pub(super) fn frame_of(

@@ -22,9 +22,10 @@ use crate::record::Price;
 /// Lengths of the waves, texels.
 const LENGTHS: [u32; 2] = [8, 32];
 
-const WAYS: [(&str, &str); 3] = [
+const WAYS: [(&str, &str); 4] = [
     ("forward", "forward_between"),
     ("central", "central_between"),
+    ("fourth order", "fourth_order_between"),
     ("patch", "patch_between"),
 ];
 

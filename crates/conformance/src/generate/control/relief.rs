@@ -52,6 +52,17 @@ pub(super) const ROWS: &[Known] = &[
         &[0.0, 1.0, 0.0, 1.0],
         &[-HALF_ROOT, 0.0, HALF_ROOT],
     ),
+    // A ramp has its slope, whatever the order: 8·(1/4) − 1/2 = 3/2. A step between the two texels beside is 8 of 12.
+    known(
+        "height_to_normal_fourth_order",
+        &[0.0, 0.125, 0.375, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5],
+        &[-0.6, 0.0, 0.8],
+    ),
+    known(
+        "height_to_normal_fourth_order",
+        &[0.5, 0.5, 0.5, 0.5, 0.25, 0.25, 0.375, 0.25, 1.0, 1.0],
+        &[0.0, -HALF_ROOT, HALF_ROOT],
+    ),
     known("mip_shares", &[0.0, 1.0], &[1.0, 0.0, 0.0]),
     known("mip_shares", &[3.0, 8.0], &[0.5, 0.5, 0.0]),
     // 5 texels over 2: (1, 1, 1/2) and (1/2, 1, 1), times 2/5.

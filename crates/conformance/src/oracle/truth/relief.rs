@@ -1,8 +1,9 @@
 //! Height fields: their normals, their levels, and relief.
 
 use bossage_reference::{
-    codec_biased, codec_unorm, displacement, height_to_normal, height_to_normal_forward, normal_mips,
-    parallax_offset, parallax_offset_limited, parallax_slope_ao, parallax_slope_ao_directed,
+    codec_biased, codec_unorm, displacement, height_to_normal, height_to_normal_forward,
+    height_to_normal_fourth_order, normal_mips, parallax_offset, parallax_offset_limited, parallax_slope_ao,
+    parallax_slope_ao_directed,
 };
 use displacement::Tile;
 use glam::DVec2;
@@ -35,6 +36,9 @@ pub(super) const ROWS: Rows = &[
             a.scalar(),
             a.scalar(),
         ))
+    }),
+    ("height_to_normal_fourth_order", |a| {
+        out3(height_to_normal_fourth_order::normal(a.array(), a.array(), v2(a)))
     }),
     ("parallax_offset", |a| {
         let (uv, z) = (v2(a), a.scalar());
