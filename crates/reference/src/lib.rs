@@ -43,6 +43,7 @@ pub mod frame_mikktspace;
 pub mod height_to_normal;
 pub mod height_to_normal_forward;
 pub mod light_to_tangent;
+pub mod max_mip;
 pub mod normal_mips;
 pub mod normal_transform;
 pub mod normalisation_cube_map;

@@ -4,6 +4,7 @@ pub mod accuracy;
 pub mod bake;
 pub mod cube_map_bake;
 pub mod defect;
+pub mod max_mip_bake;
 pub mod mesh;
 pub mod mikktspace;
 pub mod mips_bake;
@@ -36,6 +37,7 @@ pub fn cases(scope: &Scope) -> Vec<Box<dyn Case>> {
     cases.extend(defect::cases());
     cases.extend(bake::cases());
     cases.extend(cube_map_bake::cases());
+    cases.extend(max_mip_bake::cases());
     cases.extend(mips_bake::cases());
     cases.extend(mesh::cases());
     cases.extend(mikktspace::cases());

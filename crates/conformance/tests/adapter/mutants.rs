@@ -96,6 +96,27 @@ const MUTANTS: &[Mutant] = &[
         filter: "codec_biased/hardened",
     },
     Mutant {
+        what: "a corner of a texel's square left out of its maximum",
+        file: "entry/max_mip.wesl",
+        from: "quarter < 4u",
+        to: "quarter < 3u",
+        filter: "max_mip/bake",
+    },
+    Mutant {
+        what: "a mean of four heights rounded down",
+        file: "entry/max_mip.wesl",
+        from: "+ across + 3u) / 4u",
+        to: "+ across) / 4u",
+        filter: "max_mip/bake",
+    },
+    Mutant {
+        what: "the third node of an odd side left out",
+        file: "entry/max_mip.wesl",
+        from: "* bake.size + size - 1u) / size;",
+        to: "* bake.size) / size;",
+        filter: "max_mip/bake",
+    },
+    Mutant {
         what: "the last column of a bake not written",
         file: "entry/height_to_normal.wesl",
         from: "if (any(id.xy >= size)) {",
