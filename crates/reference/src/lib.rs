@@ -29,6 +29,7 @@ pub mod codec_octahedral;
 pub mod codec_snorm;
 pub mod codec_two_channel;
 pub mod codec_unorm;
+pub mod cone_map;
 pub mod cone_step;
 pub mod cube;
 pub mod displacement;

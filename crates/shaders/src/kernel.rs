@@ -34,6 +34,14 @@ pub enum Kernel {
     MaxMipTexels,
     /// One level of maxima to the next.
     MaxMip,
+    /// Heights of texels to the cells between them.
+    ConesCells,
+    /// One level of a pyramid over cells to the next.
+    ConesAbove,
+    /// The steepest way up from each cell, of either kind of cones.
+    ConesSearch,
+    /// Steepest ways to the cones' ratios.
+    ConesRatios,
     /// One invocation a direction, through a sampler.
     NormalisationCubeMapLookup,
     /// One invocation a direction, filtered within a face.
@@ -46,7 +54,7 @@ pub enum Kernel {
 
 impl Kernel {
     /// Every kernel that has one form; [`Kernel::all`] has those with several too.
-    pub const ALL: [Kernel; 16] = [
+    pub const ALL: [Kernel; 20] = [
         Kernel::HeightToNormal,
         Kernel::HeightToNormalForward,
         Kernel::HeightToNormalForwardPublished,
@@ -61,6 +69,10 @@ impl Kernel {
         Kernel::NormalMipsEncode,
         Kernel::MaxMipTexels,
         Kernel::MaxMip,
+        Kernel::ConesCells,
+        Kernel::ConesAbove,
+        Kernel::ConesSearch,
+        Kernel::ConesRatios,
         Kernel::NormalisationCubeMapLookup,
         Kernel::NormalisationCubeMapLookupInFace,
     ];
@@ -117,6 +129,10 @@ impl Kernel {
             Kernel::NormalMipsEncode => "bake_normal_mips_encode",
             Kernel::MaxMipTexels => "bake_max_mip_texels",
             Kernel::MaxMip => "bake_max_mip",
+            Kernel::ConesCells => "bake_cones_cells",
+            Kernel::ConesAbove => "bake_cones_above",
+            Kernel::ConesSearch => "bake_cones_search",
+            Kernel::ConesRatios => "bake_cones_ratios",
             Kernel::NormalisationCubeMapLookup => "normalisation_cube_map_lookup",
             Kernel::NormalisationCubeMapLookupInFace => "normalisation_cube_map_lookup_in_face",
             Kernel::ReliefHits(_) => "relief_hits",
@@ -135,7 +151,11 @@ impl Kernel {
             | Kernel::NormalisationCubeMap16
             | Kernel::NormalMips
             | Kernel::MaxMipTexels
-            | Kernel::MaxMip => [8, 8, 1],
+            | Kernel::MaxMip
+            | Kernel::ConesCells
+            | Kernel::ConesAbove
+            | Kernel::ConesSearch
+            | Kernel::ConesRatios => [8, 8, 1],
             Kernel::FrameFromUvTriangles
             | Kernel::FrameFromUvTrianglesPublished
             | Kernel::FrameFromUvVertices
@@ -166,6 +186,9 @@ impl Kernel {
                 "entry/normal_mips.wesl"
             }
             Kernel::MaxMipTexels | Kernel::MaxMip => "entry/max_mip.wesl",
+            Kernel::ConesCells | Kernel::ConesAbove | Kernel::ConesSearch | Kernel::ConesRatios => {
+                "entry/cone_map.wesl"
+            }
             Kernel::NormalisationCubeMapLookup | Kernel::NormalisationCubeMapLookupInFace => {
                 "entry/normalisation_cube_map_lookup.wesl"
             }

@@ -51,7 +51,7 @@ pub(crate) struct Bake {
     /// Bits a component of the normalisation cube map
     #[arg(long, value_name = "BITS", default_value = "8")]
     pub(crate) bits: Bits,
-    /// Bake on the graphics adapter instead of the processor (same bytes)
+    /// Bake on the graphics adapter instead of the processor (same bytes; cones within bounds)
     #[arg(long)]
     pub(crate) gpu: bool,
 }

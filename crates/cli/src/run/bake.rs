@@ -8,8 +8,7 @@ use std::path::Path;
 
 use bossage_assets::{
     Channel, EdgeMode, HeightField, NormalCodec, NormalEncoding, NormalMap, NormalisationCubeMap,
-    height_to_normal, height_to_normal_forward, load_image, max_mip, normal_mips,
-    normalisation_cube_map::Depth,
+    height_to_normal, height_to_normal_forward, load_image, normal_mips, normalisation_cube_map::Depth,
 };
 
 use crate::Verdict;
@@ -27,12 +26,12 @@ pub(crate) fn run(args: &Bake, global: &Global, console: Console) -> Result<Verd
         let field = heights(args, path, console)?;
         let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
         normal_map(args, &field, &stem, global, console, &mut files)?;
-        let levels = match (args.relief.max_mip, args.gpu) {
-            (false, _) => Vec::new(),
-            (true, true) => super::bake_gpu::max_mip(&field, relief_edge(args), global, console)?,
-            (true, false) => max_mip::codes::bake(&field, relief_edge(args)),
+        let baker = super::bake_relief::Baker {
+            field: &field,
+            edge: relief_edge(args),
+            adapter: args.gpu.then_some((global, console)),
         };
-        for (name, png) in super::bake_relief::files(args.relief, &levels, &field, relief_edge(args))? {
+        for (name, png) in baker.files(args.relief)? {
             files.add(args, &format!("{stem}_{name}"), png)?;
         }
     }
@@ -129,8 +128,8 @@ fn check_flags(args: &Bake) -> Result<()> {
         let flag = format!("--codec {}", name(codec));
         return published(&flag, "as published, it writes biased bytes");
     }
-    if let Some(flag) = args.relief.flags().find(|flag| args.gpu && *flag != "--max-mip") {
-        return refuse(format!("--gpu does not take {flag}: there is no kernel for it"));
+    if args.gpu && args.relief.window_maxima {
+        return refuse("--gpu does not take --window-maxima: there is no kernel for it".to_owned());
     }
     let folded = codec.filter(|codec| *codec != CodecName::Unorm).map(name);
     match folded {

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use bossage_assets::max_mip::codes::MaxCodes;
 use bossage_assets::normalisation_cube_map::Depth;
-use bossage_assets::{EdgeMode, HeightField, NormalCodec, NormalMap, NormalisationCubeMap, Texels};
+use bossage_assets::{ConeMap, EdgeMode, HeightField, NormalCodec, NormalMap, NormalisationCubeMap, Texels};
+use bossage_conformance::cone_passes;
 use bossage_runner::{
     BufferData, Code, ComputeJob, ComputeOutput, Machine, Resources, Shader as Stage, TextureData,
 };
@@ -178,6 +179,28 @@ pub(super) fn max_mip(
         size = smaller;
     }
     Ok(levels)
+}
+
+/// Free or relaxed cones.
+pub(super) fn cones(
+    field: &HeightField,
+    edge: EdgeMode,
+    relaxed: bool,
+    global: &Global,
+    console: Console,
+) -> Result<ConeMap> {
+    let machine = machine::open(None, console)?;
+    let kernels = Kernels::new(machine.as_ref(), global)?;
+    let ratios = cone_passes::ratios(field, edge, relaxed, |pass| {
+        let [x, y, _] = pass.invocations.map(|count| count.div_ceil(WORKGROUP_SIDE));
+        let uniforms = pass.uniforms.into_iter().collect();
+        kernels.run(pass.kernel, uniforms, &pass.buffers, [x, y, 1])
+    })?;
+    Ok(ConeMap {
+        width: field.width,
+        height: field.height,
+        ratios,
+    })
 }
 
 /// The library's kernels on a device.

@@ -9,39 +9,66 @@
 //! | `window_maxima` | 8-bit RGBA: depths | as baked: a depth that is rounded down costs a step at most |
 
 use bossage_assets::max_mip::codes::MaxCodes;
-use bossage_assets::{ConeMap, EdgeMode, HeightField, cone_map, relaxed_cone_map, window_maxima};
+use bossage_assets::{ConeMap, EdgeMode, HeightField, cone_map, max_mip, relaxed_cone_map, window_maxima};
 use image::ExtendedColorType;
 
+use crate::args::Global;
 use crate::args::bake::ReliefMaps;
+use crate::console::Console;
 use crate::error::Result;
 use crate::picture;
 
-/// Name and contents of each file that is asked for, and of the levels of maxima that were baked.
-pub(super) fn files(
-    maps: ReliefMaps,
-    levels: &[MaxCodes],
-    field: &HeightField,
-    edge: EdgeMode,
-) -> Result<Vec<(String, Vec<u8>)>> {
-    let mut files = Vec::new();
-    let mut add = |name: String, png: Result<Vec<u8>>| png.map(|png| files.push((name, png)));
-    for (level, map) in levels.iter().enumerate() {
-        let png = png16(map.width, map.height, &map.codes, ExtendedColorType::L16);
-        add(format!("max_mip{level}.png"), png)?;
+/// What is baked, and where.
+pub(super) struct Baker<'a> {
+    pub(super) field: &'a HeightField,
+    pub(super) edge: EdgeMode,
+    /// On the adapter where there is something here, else on the processor.
+    pub(super) adapter: Option<(&'a Global, Console)>,
+}
+
+impl Baker<'_> {
+    /// Name and contents of each file that is asked for.
+    pub(super) fn files(&self, maps: ReliefMaps) -> Result<Vec<(String, Vec<u8>)>> {
+        let mut files = Vec::new();
+        if maps.max_mip {
+            for (level, map) in self.maxima()?.iter().enumerate() {
+                let png = png16(map.width, map.height, &map.codes, ExtendedColorType::L16)?;
+                files.push((format!("max_mip{level}.png"), png));
+            }
+        }
+        if maps.cone {
+            files.push(("cone.png".to_owned(), cones(self.field, &self.cones(false)?)?));
+        }
+        if maps.relaxed_cone {
+            files.push((
+                "relaxed_cone.png".to_owned(),
+                cones(self.field, &self.cones(true)?)?,
+            ));
+        }
+        if maps.window_maxima {
+            let map = window_maxima::bake(self.field, self.edge);
+            let png = picture::png_rgba8(2 * map.columns, 2 * map.rows, map.texels.as_flattened())?;
+            files.push(("window_maxima.png".to_owned(), png));
+        }
+        Ok(files)
     }
-    if maps.cone {
-        add("cone.png".to_owned(), cones(field, &cone_map::bake(field, edge)))?;
+
+    fn maxima(&self) -> Result<Vec<MaxCodes>> {
+        match self.adapter {
+            Some((global, console)) => super::bake_gpu::max_mip(self.field, self.edge, global, console),
+            None => Ok(max_mip::codes::bake(self.field, self.edge)),
+        }
     }
-    if maps.relaxed_cone {
-        let map = relaxed_cone_map::bake(field, edge);
-        add("relaxed_cone.png".to_owned(), cones(field, &map))?;
+
+    fn cones(&self, relaxed: bool) -> Result<ConeMap> {
+        match (self.adapter, relaxed) {
+            (Some((global, console)), _) => {
+                super::bake_gpu::cones(self.field, self.edge, relaxed, global, console)
+            }
+            (None, false) => Ok(cone_map::bake(self.field, self.edge)),
+            (None, true) => Ok(relaxed_cone_map::bake(self.field, self.edge)),
+        }
     }
-    if maps.window_maxima {
-        let map = window_maxima::bake(field, edge);
-        let png = picture::png_rgba8(2 * map.columns, 2 * map.rows, map.texels.as_flattened());
-        add("window_maxima.png".to_owned(), png)?;
-    }
-    Ok(files)
 }
 
 /// Heights in red, ratios in green.

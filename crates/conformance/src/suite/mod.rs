@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod bake;
+pub mod cone_bake;
 pub mod cube_map_bake;
 pub mod defect;
 pub mod max_mip_bake;
@@ -36,6 +37,7 @@ pub fn cases(scope: &Scope) -> Vec<Box<dyn Case>> {
     cases.extend(probe::cases(scope.full, scope.seed));
     cases.extend(defect::cases());
     cases.extend(bake::cases());
+    cases.extend(cone_bake::cases());
     cases.extend(cube_map_bake::cases());
     cases.extend(max_mip_bake::cases());
     cases.extend(mips_bake::cases());
