@@ -1,8 +1,8 @@
 //! How long the maps for tracing relief take to bake, by size: the time a texel must hardly grow.
 //!
 //! Goal: the safe cones of 1024² texels in at most 20 s on two cores, which is 40 s of one core: that is what is counted, since the
-//! clock on the wall also tells what else the machine does. `cargo bench --profile dev -p bossage-assets`; a path to an image
-//! as argument bakes that instead of the drawn fields.
+//! clock on the wall also tells what else the machine does. `cargo bench --profile dev -p bossage-assets`; a number as argument bakes the
+//! drawn fields of that side only, a path to an image bakes that instead.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints")]
 
@@ -15,19 +15,21 @@ use bossage_assets::{Channel, EdgeMode, HeightField, cone_map, load_image, max_m
 const GOAL_S: f64 = 40.0;
 
 fn main() {
-    let path = std::env::args()
+    let argument = std::env::args()
         .skip(1)
         .find(|argument| !argument.starts_with('-'));
-    match path {
-        Some(path) => report("file", &read(Path::new(&path))),
-        None => {
-            for side in [256, 512, 1024, 2048] {
-                report("courses of stones", &courses(side));
-                report("hills", &hills(side));
-                report("noise", &noise(side));
-            }
-        }
+    match argument.as_deref().map(|argument| (argument, argument.parse())) {
+        Some((_, Ok(side))) => drawn(side),
+        Some((path, Err(_))) => report("file", &read(Path::new(path))),
+        None => [256, 512, 1024, 2048].into_iter().for_each(drawn),
     }
+}
+
+/// The drawn fields of a side.
+fn drawn(side: u32) {
+    report("courses of stones", &courses(side));
+    report("hills", &hills(side));
+    report("noise", &noise(side));
 }
 
 fn read(path: &Path) -> HeightField {

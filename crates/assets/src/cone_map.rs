@@ -65,9 +65,12 @@ impl ConeMap {
         }
     }
 
-    /// The ratios as codes of 16 bits, rounded down so that cones stay free: a code c is c/65535.
+    /// The ratios as codes of 16 bits, rounded down so that cones stay free: a code c is c/65535. None is 0 up to
+    /// [`MAX_SIDE`](crate::MAX_SIDE) texels a side, since no slope is steeper than √2 heights a texel.
     #[must_use]
     pub fn to_unorm16(&self) -> Vec<u16> {
-        self.ratios.iter().map(|ratio| (ratio * 65535.0) as u16).collect()
+        // The product is exact in f64, which has room for both factors' bits.
+        let code = |ratio: &f32| (f64::from(*ratio) * 65535.0) as u16;
+        self.ratios.iter().map(code).collect()
     }
 }

@@ -140,6 +140,23 @@ impl HeightField {
     pub fn to_bytes(&self) -> Vec<u8> {
         self.texels.iter().map(|&h| height_byte(h)).collect()
     }
+
+    /// The heights as codes of 16 bits, rounded up: the least code c whose value, c/65535 in f32, is not below. So maxima stay
+    /// maxima, and heights of 8- and 16-bit images are kept as they are.
+    #[must_use]
+    pub fn to_unorm16_up(&self) -> Vec<u16> {
+        self.texels.iter().map(|&h| height_code_up(h)).collect()
+    }
+}
+
+/// A height as a code of 16 bits that is not below it.
+fn height_code_up(h: f32) -> u16 {
+    let nearest = (h * 65535.0 + 0.5) as u16;
+    if f32::from(nearest) / 65535.0 < h {
+        nearest.saturating_add(1)
+    } else {
+        nearest
+    }
 }
 
 /// A height as a byte. Operation order, the same in the shaders: multiply by 255, add 0.5, convert by truncation.

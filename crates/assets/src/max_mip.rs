@@ -14,6 +14,8 @@
 
 use crate::{EdgeMode, HeightField};
 
+pub mod codes;
+
 /// The chain, the level of single texels first, sides halved and rounded down to 1 × 1.
 #[must_use]
 pub fn bake(field: &HeightField, edge: EdgeMode) -> Vec<HeightField> {

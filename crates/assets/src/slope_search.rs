@@ -8,8 +8,8 @@
 //!
 //! The smallest counts; for the cells around C only the second. A pyramid of maxima is searched from the top, the steepest
 //! node first. What cannot exceed the slope that is known already by more than [`SLACK`] is not looked into, its own bound counts.
-//! Rough maps cost the same a texel at every size; smooth ones more the larger they are (`docs/relief.md` has the times).
-//! Slopes below one height a longer side are not told apart.
+//! Before a node is looked into, a texel in its middle and the range of its gradients are asked (`Base::surely_less_steep`): on a smooth map they
+//! say more than its highest height does (`docs/relief.md` has the times). Slopes below one height a longer side are not told apart.
 //!
 //! [`Rule::CrossedOnce`] leaves out what surely rises away from C: nodes all of whose gradients point away from all of C.
 //!
@@ -54,8 +54,14 @@ const SQUARES: [(u32, usize); 11] = [
 /// nodes up to 16 times their own width away on each level.
 const SLACK: f32 = 1.0 + 1.0 / 16.0;
 
-/// What covers the rounding of a slope.
-const ROUNDING: f32 = 1.0 + 1.0 / 1_048_576.0;
+/// The same for what a node's texel and gradients say, which is told of a slope given and not of the node's own.
+const MIDDLE_SLACK: f32 = 1.0 + 1.0 / 64.0;
+
+/// What covers the rounding of a slope, as a share of it.
+const ROUNDED: f32 = 1.0 / 1_048_576.0;
+
+/// The same as a factor.
+const ROUNDING: f32 = 1.0 + ROUNDED;
 
 /// A field's cells, ready to be searched. Cell (i, j) lies between the centres of texel (i, j) and the next ones.
 pub(crate) struct Cells {
@@ -206,8 +212,9 @@ impl<'a> Base<'a> {
 
     fn steepest(&self, stack: &mut Vec<(f32, Place)>, hint: &mut Option<Place>) -> f32 {
         let mut found = self.own();
-        if let Some(place) = *hint {
-            found = found.max(self.bound(&place));
+        if let Some(place) = hint.filter(|place| !self.surely_less_steep(place, found * MIDDLE_SLACK)) {
+            let bound = self.bound(&place);
+            found = found.max(self.sharpened(&place, found * MIDDLE_SLACK, bound));
         }
         let mut passed = 0.0f32;
         stack.clear();
@@ -227,8 +234,10 @@ impl<'a> Base<'a> {
         while let Some((bound, place)) = stack.pop() {
             if bound <= found * SLACK {
                 passed = passed.max(bound);
+            } else if self.surely_less_steep(&place, found * MIDDLE_SLACK) {
+                passed = passed.max(found * MIDDLE_SLACK);
             } else if place.level == 0 {
-                found = bound;
+                found = self.sharpened(&place, found * MIDDLE_SLACK, bound);
                 *hint = Some(place);
             } else {
                 self.push_below(&place, found, stack);
@@ -283,6 +292,54 @@ impl<'a> Base<'a> {
         } else {
             gradient.min(rise / distance)
         }
+    }
+
+    /// A slope that no way to a node surely exceeds, the least to within [`MIDDLE_SLACK`]: more than `under`, and not more than `bound`.
+    fn sharpened(&self, place: &Place, mut under: f32, bound: f32) -> f32 {
+        let mut over = bound;
+        while over > under * MIDDLE_SLACK {
+            let between = (under * over).sqrt();
+            if self.surely_less_steep(place, between) {
+                over = between;
+            } else {
+                under = between;
+            }
+        }
+        over
+    }
+
+    /// Whether surely no way from the base to a point of the node is steeper than `slope`, told by a texel and the gradients of each.
+    ///
+    /// With c and m two texels, D their distance and u the direction from c to m: between a point c + f of the base and a point m + e of
+    /// the node the surface rises by h(m) − h(c) + g·e − b·f, for some g and b in their ranges of gradients, and they are
+    /// no nearer than D + u·(e − f), lengths being convex. So a way is steeper than σ only if
+    /// h(m) − h(c) + (g − σ·u)·e − (b − σ·u)·f > σ·D. Where a steepest way ends on a smooth map, g = σ·u: what is left is of second
+    /// order in the node's size, while its highest height over its least distance is of first.
+    fn surely_less_steep(&self, place: &Place, slope: f32) -> bool {
+        let node = self.cells.pyramid.node(place.level, place.node);
+        let own = &self.cells.pyramid.levels[0].nodes[self.index];
+        let spans = [0, 1].map(|axis| self.cells.pyramid.span(axis, place.level, place.node[axis]));
+        let middle = [0, 1].map(|axis| place.folds[axis].texel(pyramid::middle(spans[axis])));
+        let away = [0, 1].map(|axis| (middle[axis] - self.at[axis]) as f32);
+        let distance = (away[0] * away[0] + away[1] * away[1]).sqrt();
+        if distance == 0.0 {
+            return false;
+        }
+        let (mut beside, mut reach) = (0.0, distance + 2.0);
+        for axis in 0..2 {
+            let even = slope * away[axis] / distance;
+            let [before, behind] = place.folds[axis]
+                .span(spans[axis])
+                .map(|end| (end - middle[axis]) as f32);
+            let [least, greatest] = place.folds[axis].gradient(node.slopes[axis]).map(|g| g - even);
+            beside += (greatest * behind).max(least * before);
+            beside += (even - own.slopes[axis][0]).max(0.0);
+            reach += behind - before;
+        }
+        let rise = node.middle - own.middle;
+        // A few roundings of each part, and of what the gradients are compared with.
+        let rounded = ROUNDED * (rise.abs() + beside + slope * reach);
+        rise + beside + rounded <= slope * distance
     }
 
     /// The bound by the gradients of the cells within `radius`, or infinity where that is not at hand.

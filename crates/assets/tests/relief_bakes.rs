@@ -1,5 +1,6 @@
 //! Maps for tracing relief: what makes each right, against brute force on small fields, with the classic forms as controls.
 
+use bossage_assets::max_mip::codes::MaxCodes;
 use bossage_assets::{ConeMap, EdgeMode, HeightField, cone_map, max_mip, relaxed_cone_map};
 
 const EDGES: [EdgeMode; 3] = [EdgeMode::Wrap, EdgeMode::Mirror, EdgeMode::Clamp];
@@ -281,8 +282,82 @@ fn codes_are_rounded_down() {
     let map = cone_map::bake(&waves(12, 9), EdgeMode::Wrap);
     for (code, ratio) in map.to_unorm16().iter().zip(&map.ratios) {
         let decoded = f64::from(*code) / 65535.0;
-        assert!(decoded <= f64::from(*ratio) && f64::from(*ratio) - decoded < 1.01 / 65535.0);
+        assert!(decoded <= f64::from(*ratio) && f64::from(*ratio) - decoded < 1.0 / 65535.0);
     }
+}
+
+#[test]
+fn codes_of_heights_are_rounded_up_and_no_more_than_need_be() {
+    // Heights of 8 and of 16 bits stay what they are; next to them, and in between, the next code up.
+    let value = |code: u16| f32::from(code) / 65535.0;
+    let of = |h: f32| HeightField::from_fn(1, 1, |_, _| h).to_unorm16_up()[0];
+    for byte in 0..=255u16 {
+        assert_eq!(of(f32::from(byte) / 255.0), 257 * byte);
+    }
+    for code in 0..65535 {
+        let next = code + 1;
+        assert_eq!(of(value(code)), code);
+        for above in [
+            value(code).next_up(),
+            (value(code) + value(next)) / 2.0,
+            value(next),
+        ] {
+            assert_eq!(of(above), next, "{above:e}");
+        }
+    }
+}
+
+/// The first node of the coded chain that is not over the surface of the coded heights, or is more than a code over it on level 0.
+fn not_over_the_codes(field: &HeightField, edge: EdgeMode, levels: &[MaxCodes]) -> Option<String> {
+    let heights = field.to_unorm16_up();
+    let coded = HeightField::from_fn(field.width, field.height, |x, y| {
+        f32::from(heights[(y * field.width + x) as usize]) / 65536.0
+    });
+    levels.iter().enumerate().find_map(|(index, level)| {
+        let shape = HeightField::from_fn(level.width, level.height, |_, _| 0.0);
+        let places = (0..level.height).flat_map(|y| (0..level.width).map(move |x| (x, y)));
+        places.into_iter().find_map(|(x, y)| {
+            let code = f64::from(level.codes[(y * level.width + x) as usize]);
+            // Codes over 65536 are exact in f32; the samples of the mirror test below are exact to far less than a code.
+            let greatest = 65536.0 * greatest_over(&coded, edge, &shape, x, y);
+            let loose = index == 0 && code >= greatest + 1.0;
+            (code < greatest - 1e-6 || loose)
+                .then(|| format!("{edge:?} level {index} ({x}, {y}): {code} over {greatest}"))
+        })
+    })
+}
+
+#[test]
+fn codes_of_maxima_are_over_the_surface() {
+    for edge in EDGES {
+        for field in fields() {
+            let levels = max_mip::codes::bake(&field, edge);
+            let sides = max_mip::bake(&field, edge)
+                .iter()
+                .map(|level| (level.width, level.height))
+                .collect::<Vec<_>>();
+            assert_eq!(
+                levels
+                    .iter()
+                    .map(|level| (level.width, level.height))
+                    .collect::<Vec<_>>(),
+                sides
+            );
+            assert_eq!(not_over_the_codes(&field, edge, &levels), None);
+        }
+    }
+}
+
+#[test]
+fn codes_of_texels_alone_are_not_over_the_surface() {
+    // The control: the classic chain's level 0, and our own with one code less.
+    let field = spike(8, 8);
+    let mut levels = max_mip::codes::bake(&field, EdgeMode::Wrap);
+    let ours = levels[0].codes.clone();
+    levels[0].codes = field.to_unorm16_up();
+    assert!(not_over_the_codes(&field, EdgeMode::Wrap, &levels).is_some());
+    levels[0].codes = ours.iter().map(|code| code - 1).collect();
+    assert!(not_over_the_codes(&field, EdgeMode::Wrap, &levels).is_some());
 }
 
 #[test]

@@ -25,6 +25,7 @@ pub mod bound;
 pub mod case;
 pub mod case_id;
 pub mod compare;
+pub mod cone_passes;
 pub mod deviation;
 mod dispatch;
 pub mod environment;

@@ -30,6 +30,18 @@ pub enum Kernel {
     NormalMips,
     /// A level of averages to bytes.
     NormalMipsEncode,
+    /// Heights of texels, in codes, to the base of the chain of maxima.
+    MaxMipTexels,
+    /// One level of maxima to the next.
+    MaxMip,
+    /// Heights of texels to the cells between them.
+    ConesCells,
+    /// One level of a pyramid over cells to the next.
+    ConesAbove,
+    /// The steepest way up from each cell, of either kind of cones.
+    ConesSearch,
+    /// Steepest ways to the cones' ratios.
+    ConesRatios,
     /// One invocation a direction, through a sampler.
     NormalisationCubeMapLookup,
     /// One invocation a direction, filtered within a face.
@@ -42,7 +54,7 @@ pub enum Kernel {
 
 impl Kernel {
     /// Every kernel that has one form; [`Kernel::all`] has those with several too.
-    pub const ALL: [Kernel; 14] = [
+    pub const ALL: [Kernel; 20] = [
         Kernel::HeightToNormal,
         Kernel::HeightToNormalForward,
         Kernel::HeightToNormalForwardPublished,
@@ -55,6 +67,12 @@ impl Kernel {
         Kernel::NormalMipsDecode,
         Kernel::NormalMips,
         Kernel::NormalMipsEncode,
+        Kernel::MaxMipTexels,
+        Kernel::MaxMip,
+        Kernel::ConesCells,
+        Kernel::ConesAbove,
+        Kernel::ConesSearch,
+        Kernel::ConesRatios,
         Kernel::NormalisationCubeMapLookup,
         Kernel::NormalisationCubeMapLookupInFace,
     ];
@@ -109,6 +127,12 @@ impl Kernel {
             Kernel::NormalMipsDecode => "bake_normal_mips_decode",
             Kernel::NormalMips => "bake_normal_mips",
             Kernel::NormalMipsEncode => "bake_normal_mips_encode",
+            Kernel::MaxMipTexels => "bake_max_mip_texels",
+            Kernel::MaxMip => "bake_max_mip",
+            Kernel::ConesCells => "bake_cones_cells",
+            Kernel::ConesAbove => "bake_cones_above",
+            Kernel::ConesSearch => "bake_cones_search",
+            Kernel::ConesRatios => "bake_cones_ratios",
             Kernel::NormalisationCubeMapLookup => "normalisation_cube_map_lookup",
             Kernel::NormalisationCubeMapLookupInFace => "normalisation_cube_map_lookup_in_face",
             Kernel::ReliefHits(_) => "relief_hits",
@@ -125,7 +149,13 @@ impl Kernel {
             | Kernel::HeightToNormalForwardPublished
             | Kernel::NormalisationCubeMap
             | Kernel::NormalisationCubeMap16
-            | Kernel::NormalMips => [8, 8, 1],
+            | Kernel::NormalMips
+            | Kernel::MaxMipTexels
+            | Kernel::MaxMip
+            | Kernel::ConesCells
+            | Kernel::ConesAbove
+            | Kernel::ConesSearch
+            | Kernel::ConesRatios => [8, 8, 1],
             Kernel::FrameFromUvTriangles
             | Kernel::FrameFromUvTrianglesPublished
             | Kernel::FrameFromUvVertices
@@ -154,6 +184,10 @@ impl Kernel {
             }
             Kernel::NormalMipsDecode | Kernel::NormalMips | Kernel::NormalMipsEncode => {
                 "entry/normal_mips.wesl"
+            }
+            Kernel::MaxMipTexels | Kernel::MaxMip => "entry/max_mip.wesl",
+            Kernel::ConesCells | Kernel::ConesAbove | Kernel::ConesSearch | Kernel::ConesRatios => {
+                "entry/cone_map.wesl"
             }
             Kernel::NormalisationCubeMapLookup | Kernel::NormalisationCubeMapLookupInFace => {
                 "entry/normalisation_cube_map_lookup.wesl"

@@ -8,6 +8,8 @@ use crate::{EdgeMode, HeightField};
 pub(super) struct Node {
     /// Their highest height.
     pub(super) highest: f32,
+    /// The height of the texel in their middle.
+    pub(super) middle: f32,
     /// Their slopes.
     pub(super) slopes: Slopes,
 }
@@ -25,9 +27,11 @@ pub(super) struct Pyramid {
 }
 
 impl Node {
+    /// Of both; the middle is left for whoever knows how many there are.
     fn join(self, other: Self) -> Self {
         Self {
             highest: self.highest.max(other.highest),
+            middle: self.middle,
             slopes: slopes::hull(&self.slopes, &other.slopes),
         }
     }
@@ -49,6 +53,7 @@ impl Pyramid {
                 let along_y = [h01 - h00, h11 - h10];
                 nodes.push(Node {
                     highest: h00.max(h10).max(h01).max(h11),
+                    middle: h00,
                     slopes: [
                         range(along_x, edge != EdgeMode::Wrap && x == 0),
                         range(along_y, edge != EdgeMode::Wrap && y == 0),
@@ -64,7 +69,7 @@ impl Pyramid {
             nodes,
         }];
         while let Some(last) = levels.last().filter(|last| last.nodes.len() > 1) {
-            let above = last.above();
+            let above = last.above(field, levels.len());
             levels.push(above);
         }
         (Self { levels }, lowest, twist)
@@ -82,18 +87,38 @@ impl Pyramid {
         } else {
             self.levels[0].height
         };
-        [(node << level) as i32, ((node + 1) << level).min(side) as i32]
+        span(level, node, side).map(|cell| cell as i32)
     }
 }
 
+/// The cells of a node along a side of so many: first, and one behind the last.
+fn span(level: usize, node: u32, side: u32) -> [u32; 2] {
+    [node << level, ((node + 1) << level).min(side)]
+}
+
+/// The texel in the middle of a span of cells.
+pub(super) fn middle<T>([start, end]: [T; 2]) -> T
+where
+    T: Copy + std::ops::Add<Output = T> + std::ops::Div<Output = T> + From<u8>,
+{
+    (start + end) / T::from(2)
+}
+
 impl Level {
-    fn above(&self) -> Self {
+    /// The next level, which is the so manieth of the field.
+    fn above(&self, field: &HeightField, level: usize) -> Self {
         let (width, height) = (self.width.div_ceil(2), self.height.div_ceil(2));
         let node = |x: u32, y: u32| self.nodes[y as usize * self.width as usize + x as usize];
         let join = |x: u32, y: u32| {
             let (right, below) = ((2 * x + 1).min(self.width - 1), (2 * y + 1).min(self.height - 1));
             let top = node(2 * x, 2 * y).join(node(right, 2 * y));
-            top.join(node(2 * x, below)).join(node(right, below))
+            let all = top.join(node(2 * x, below)).join(node(right, below));
+            let [x, y] =
+                [(x, field.width), (y, field.height)].map(|(node, side)| middle(span(level, node, side)));
+            Node {
+                middle: field.texel(x, y),
+                ..all
+            }
         };
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
         Self {
@@ -148,6 +173,14 @@ impl Fold {
         match self {
             Self::Shifted(by) => [start + by, end + by],
             Self::Mirrored(around) => [around - end + 1, around - start + 1],
+        }
+    }
+
+    /// Where a texel lies.
+    pub(super) fn texel(self, texel: i32) -> i32 {
+        match self {
+            Self::Shifted(by) => texel + by,
+            Self::Mirrored(around) => around - texel + 1,
         }
     }
 

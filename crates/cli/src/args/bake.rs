@@ -8,6 +8,7 @@ pub(crate) const EXAMPLE: &str = "\
 Examples:
   bossage bake examples/textures/brick_height.png -o out/brick --normal central --edge wrap --scale 0.04
   bossage bake examples/textures/brick_height.png -o out/brick --codec biased --mips
+  bossage bake examples/textures/brick_height.png -o out/brick --max-mip --cone --edge mirror
   bossage bake -o out/cube --normalisation-cube 64 --bits 8";
 
 /// `bossage bake`.
@@ -25,7 +26,7 @@ pub(crate) struct Bake {
     /// How normals become bytes [default: unorm; forward: biased]
     #[arg(long, value_name = "CODEC", requires = "height")]
     pub(crate) codec: Option<CodecName>,
-    /// What lies beyond the edge of the image [default: wrap; forward: a flat border]
+    /// What lies beyond the edge of the image [default: wrap; the normal map of forward: a flat border]
     #[arg(long, value_name = "MODE", requires = "height")]
     pub(crate) edge: Option<EdgeName>,
     /// How far height 1 lies above height 0, in widths of the image (texels are square)
@@ -42,15 +43,49 @@ pub(crate) struct Bake {
     /// Write the smaller levels of the normal map too, each averaged from the one above and made unit vectors again
     #[arg(long, requires = "height")]
     pub(crate) mips: bool,
+    #[command(flatten)]
+    pub(crate) relief: ReliefMaps,
     /// Write a normalisation cube map of so many texels along an edge, as six images
     #[arg(long, value_name = "SIZE")]
     pub(crate) normalisation_cube: Option<u32>,
     /// Bits a component of the normalisation cube map
     #[arg(long, value_name = "BITS", default_value = "8")]
     pub(crate) bits: Bits,
-    /// Bake on the graphics adapter instead of the processor (same bytes)
+    /// Bake on the graphics adapter instead of the processor (same bytes; cones within bounds)
     #[arg(long)]
     pub(crate) gpu: bool,
+}
+
+/// The maps that tracing reads, beside the normal map.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct ReliefMaps {
+    /// Write the greatest height of the surface over each texel, and of every smaller level: 16-bit grey, rounded up
+    #[arg(long, requires = "height")]
+    pub(crate) max_mip: bool,
+    /// Write the free cones: 16 bits, red the height rounded up, green the radius in longer sides of the map, a height of 1 above
+    /// the tip, rounded down
+    #[arg(long, requires = "height")]
+    pub(crate) cone: bool,
+    /// Write the cones that a ray crosses once, in the same form
+    #[arg(long, requires = "height")]
+    pub(crate) relaxed_cone: bool,
+    /// Write how deep a ray may sink over the 1, 2, 4 and 8 blocks ahead, a quadrant of directions in each quarter: 8-bit RGBA,
+    /// rounded down
+    #[arg(long, requires = "height")]
+    pub(crate) window_maxima: bool,
+}
+
+impl ReliefMaps {
+    /// The flags that are set.
+    pub(crate) fn flags(self) -> impl Iterator<Item = &'static str> {
+        let flags = [
+            ("--max-mip", self.max_mip),
+            ("--cone", self.cone),
+            ("--relaxed-cone", self.relaxed_cone),
+            ("--window-maxima", self.window_maxima),
+        ];
+        flags.into_iter().filter(|(_, set)| *set).map(|(flag, _)| flag)
+    }
 }
 
 /// Ways to take a slope.

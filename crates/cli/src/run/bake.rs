@@ -1,4 +1,5 @@
 //! `bossage bake`: maps from a height image, and the normalisation cube map, on the processor or on an adapter.
+//! The maps that tracing reads are in `bake_relief`.
 //!
 //! Everything that one call writes is written together or not at all. An adapter writes the same bytes, but for codes that lie
 //! within the rounding of f32 of a boundary between two: there the accuracy rules leave it the choice.
@@ -21,8 +22,18 @@ use crate::{cube_files, picture};
 pub(crate) fn run(args: &Bake, global: &Global, console: Console) -> Result<Verdict> {
     check_flags(args)?;
     let mut files = Files::default();
-    if let Some(height) = &args.height {
-        normal_map(args, height, global, console, &mut files)?;
+    if let Some(path) = &args.height {
+        let field = heights(args, path, console)?;
+        let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+        normal_map(args, &field, &stem, global, console, &mut files)?;
+        let baker = super::bake_relief::Baker {
+            field: &field,
+            edge: relief_edge(args),
+            adapter: args.gpu.then_some((global, console)),
+        };
+        for (name, png) in baker.files(args.relief)? {
+            files.add(args, &format!("{stem}_{name}"), png)?;
+        }
     }
     if let Some(size) = args.normalisation_cube {
         let map = if args.gpu {
@@ -58,7 +69,7 @@ impl Files {
     }
 }
 
-fn normal_map(args: &Bake, path: &Path, global: &Global, console: Console, files: &mut Files) -> Result<()> {
+fn heights(args: &Bake, path: &Path, console: Console) -> Result<HeightField> {
     let field = HeightField::from_image(&load_image(path)?, channel(args.channel))?;
     let (low, high) = field.range();
     console.note(format_args!(
@@ -67,11 +78,21 @@ fn normal_map(args: &Bake, path: &Path, global: &Global, console: Console, files
         field.width,
         field.height
     ));
-    let stem = path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy();
+    Ok(field)
+}
+
+fn normal_map(
+    args: &Bake,
+    field: &HeightField,
+    stem: &str,
+    global: &Global,
+    console: Console,
+    files: &mut Files,
+) -> Result<()> {
     let map = match (encoding(args), args.gpu) {
-        (NormalEncoding::Linear(_), true) => super::bake_gpu::bake(args, &field, global, console)?,
-        (NormalEncoding::Linear(_), false) => bake(args, &field)?,
-        (encoding, _) => encoded(args, &field, encoding)?,
+        (NormalEncoding::Linear(_), true) => super::bake_gpu::bake(args, field, global, console)?,
+        (NormalEncoding::Linear(_), false) => bake(args, field)?,
+        (encoding, _) => encoded(args, field, encoding)?,
     };
     files.add(args, &format!("{stem}_normal.png"), png(&map)?)?;
     if !args.mips {
@@ -100,12 +121,15 @@ fn check_flags(args: &Bake) -> Result<()> {
     }
     let published = |flag: &str, why: &str| refuse(format!("--normal forward does not take {flag}: {why}"));
     let codec = args.codec.filter(|codec| *codec != CodecName::Biased);
-    if args.normal == NormalKind::Forward && args.edge.is_some() {
+    if args.normal == NormalKind::Forward && args.edge.is_some() && args.relief.flags().next().is_none() {
         return published("--edge", "as published, its border is flat");
     }
     if let Some(codec) = codec.filter(|_| args.normal == NormalKind::Forward) {
         let flag = format!("--codec {}", name(codec));
         return published(&flag, "as published, it writes biased bytes");
+    }
+    if args.gpu && args.relief.window_maxima {
+        return refuse("--gpu does not take --window-maxima: there is no kernel for it".to_owned());
     }
     let folded = codec.filter(|codec| *codec != CodecName::Unorm).map(name);
     match folded {
@@ -151,7 +175,7 @@ pub(super) fn central(args: &Bake, field: &HeightField) -> Result<height_to_norm
         NormalEncoding::Linear(codec) => codec,
         NormalEncoding::Snorm | NormalEncoding::TwoChannel | NormalEncoding::Octahedral => NormalCodec::Unorm,
     };
-    let edge = edge(args.edge.unwrap_or(EdgeName::Wrap));
+    let edge = relief_edge(args);
     let scale = [args.scale, args.scale * field.width as f32 / field.height as f32];
     Ok(height_to_normal::Bake::central(field, scale, edge, codec)?)
 }
@@ -200,6 +224,11 @@ const fn depth(bits: Bits) -> Depth {
         Bits::Eight => Depth::Eight,
         Bits::Sixteen => Depth::Sixteen,
     }
+}
+
+/// What lies beyond the border, but for the published normal map.
+fn relief_edge(args: &Bake) -> EdgeMode {
+    edge(args.edge.unwrap_or(EdgeName::Wrap))
 }
 
 const fn edge(name: EdgeName) -> EdgeMode {

@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use bossage_assets::max_mip::codes::MaxCodes;
 use bossage_assets::normalisation_cube_map::Depth;
-use bossage_assets::{EdgeMode, HeightField, NormalCodec, NormalMap, NormalisationCubeMap, Texels};
+use bossage_assets::{ConeMap, EdgeMode, HeightField, NormalCodec, NormalMap, NormalisationCubeMap, Texels};
+use bossage_conformance::cone_passes;
 use bossage_runner::{
     BufferData, Code, ComputeJob, ComputeOutput, Machine, Resources, Shader as Stage, TextureData,
 };
@@ -132,6 +134,73 @@ pub(super) fn mips(map: &NormalMap, global: &Global, console: Console) -> Result
         });
     }
     Ok(levels)
+}
+
+/// The maxima of the surface, level by level.
+pub(super) fn max_mip(
+    field: &HeightField,
+    edge: EdgeMode,
+    global: &Global,
+    console: Console,
+) -> Result<Vec<MaxCodes>> {
+    let machine = machine::open(None, console)?;
+    let kernels = Kernels::new(machine.as_ref(), global)?;
+    let level = |kernel: Kernel, from: &[u16], size: [u32; 2], to: [u32; 2]| -> Result<MaxCodes> {
+        let uniforms = BTreeMap::from([
+            ("bake.size".to_owned(), size.map(|side| side as f32).to_vec()),
+            ("bake.edge_mode".to_owned(), vec![edge_number(edge)]),
+        ]);
+        let words: Vec<u8> = from
+            .iter()
+            .flat_map(|code| u32::from(*code).to_le_bytes())
+            .collect();
+        let buffers = [
+            ("codes", BufferData::Bytes(&words)),
+            ("maxima", BufferData::Output(4 * (to[0] * to[1]) as usize)),
+        ];
+        let side = |axis: usize| to[axis].div_ceil(WORKGROUP_SIDE);
+        let found = kernels.run(kernel, uniforms, &buffers, [side(0), side(1), 1])?;
+        Ok(MaxCodes {
+            width: to[0],
+            height: to[1],
+            codes: found
+                .words("maxima")
+                .into_iter()
+                .map(|code| code as u16)
+                .collect(),
+        })
+    };
+    let mut size = [field.width, field.height];
+    let mut levels = vec![level(Kernel::MaxMipTexels, &field.to_unorm16_up(), size, size)?];
+    while let Some(last) = levels.last().filter(|_| size != [1, 1]) {
+        let smaller = size.map(|side| (side / 2).max(1));
+        let next = level(Kernel::MaxMip, &last.codes, size, smaller)?;
+        levels.push(next);
+        size = smaller;
+    }
+    Ok(levels)
+}
+
+/// Free or relaxed cones.
+pub(super) fn cones(
+    field: &HeightField,
+    edge: EdgeMode,
+    relaxed: bool,
+    global: &Global,
+    console: Console,
+) -> Result<ConeMap> {
+    let machine = machine::open(None, console)?;
+    let kernels = Kernels::new(machine.as_ref(), global)?;
+    let ratios = cone_passes::ratios(field, edge, relaxed, |pass| {
+        let [x, y, _] = pass.invocations.map(|count| count.div_ceil(WORKGROUP_SIDE));
+        let uniforms = pass.uniforms.into_iter().collect();
+        kernels.run(pass.kernel, uniforms, &pass.buffers, [x, y, 1])
+    })?;
+    Ok(ConeMap {
+        width: field.width,
+        height: field.height,
+        ratios,
+    })
 }
 
 /// The library's kernels on a device.

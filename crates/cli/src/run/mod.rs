@@ -2,6 +2,7 @@
 
 pub(crate) mod bake;
 mod bake_gpu;
+mod bake_relief;
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod conform;

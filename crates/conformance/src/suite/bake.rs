@@ -43,7 +43,7 @@ struct BakeCase {
 }
 
 /// The fields by name: rough and smooth, with sides that are no multiples of a workgroup, and the smallest there are.
-fn fields() -> Vec<(&'static str, HeightField)> {
+pub(crate) fn fields() -> Vec<(&'static str, HeightField)> {
     let mut rng = stream("bake", 1);
     let noise: Vec<f32> = (0..61 * 37)
         .map(|_| rng.random_range(0..=255u32) as f32 / 255.0)

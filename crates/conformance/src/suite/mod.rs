@@ -2,8 +2,10 @@
 
 pub mod accuracy;
 pub mod bake;
+pub mod cone_bake;
 pub mod cube_map_bake;
 pub mod defect;
+pub mod max_mip_bake;
 pub mod mesh;
 pub mod mikktspace;
 pub mod mips_bake;
@@ -35,7 +37,9 @@ pub fn cases(scope: &Scope) -> Vec<Box<dyn Case>> {
     cases.extend(probe::cases(scope.full, scope.seed));
     cases.extend(defect::cases());
     cases.extend(bake::cases());
+    cases.extend(cone_bake::cases());
     cases.extend(cube_map_bake::cases());
+    cases.extend(max_mip_bake::cases());
     cases.extend(mips_bake::cases());
     cases.extend(mesh::cases());
     cases.extend(mikktspace::cases());
