@@ -43,6 +43,17 @@ pub struct Answers {
     sides: DVec2,
 }
 
+/// Where the answers to a box of rays lie.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// The least uv, not wrapped.
+    pub low: DVec2,
+    /// The greatest uv.
+    pub high: DVec2,
+    /// How far the first and the last hit along the ray in the middle are apart, in texels: much, where a ray of the box may graze.
+    pub texels: f64,
+}
+
 impl Answers {
     /// Whether the truth jumps when the ray moves by [`FEW_ULPS`].
     #[must_use]
@@ -122,15 +133,37 @@ impl<'a> Surface<'a> {
         answers
     }
 
+    /// Where all answers lie to all rays that enter and travel within so much of this one per axis, in UV, each within the tolerance.
+    ///
+    /// A ray of the box is nowhere further from this one than both add up to, so its surface is within what the steepest slope makes
+    /// of that: it meets nothing before this ray meets the surface lifted by as much, and has met it where this one meets it lowered.
+    #[must_use]
+    pub fn span(&self, ray: &Ray, entry: DVec2, travel: DVec2) -> Span {
+        let (position, direction) = ulps(ray);
+        // Twice, since a ray of the box may lie beyond the next power of two.
+        let moved = entry + travel + 2.0 * f64::from(FEW_ULPS) * (position + direction);
+        let [first, last] = self.ends(ray, moved).map(|t| ray.at(t));
+        let margin = moved + TOLERANCE_TEXELS / sides(self.field);
+        Span {
+            low: first.min(last) - margin,
+            high: first.max(last) + margin,
+            texels: ((last - first) * sides(self.field)).length(),
+        }
+    }
+
+    /// The least and the greatest t at which a ray that is nowhere further away than `moved`, in UV, can meet the surface.
+    fn ends(&self, ray: &Ray, moved: DVec2) -> [f64; 2] {
+        let lift = (moved * sides(self.field)).dot(self.steepest);
+        [lift, -lift].map(|lift| first_hit_lifted(self.field, self.edge, ray, lift).t)
+    }
+
     /// False only where no ray beside this one meets the surface elsewhere.
     fn may_graze(&self, ray: &Ray) -> bool {
         let (position, direction) = ulps(ray);
-        let moved_texels = f64::from(FEW_ULPS) * (position + direction) * sides(self.field);
-        let lift = moved_texels.dot(self.steepest);
-        let first = first_hit_lifted(self.field, self.edge, ray, lift);
-        let last = first_hit_lifted(self.field, self.edge, ray, -lift);
-        let spread_texels = (last.t - first.t) * (ray.delta * sides(self.field)).length();
-        spread_texels + moved_texels.length() > TOLERANCE_TEXELS
+        let moved = f64::from(FEW_ULPS) * (position + direction);
+        let [first, last] = self.ends(ray, moved);
+        let spread_texels = (last - first) * (ray.delta * sides(self.field)).length();
+        spread_texels + (moved * sides(self.field)).length() > TOLERANCE_TEXELS
     }
 }
 
@@ -239,5 +272,58 @@ mod tests {
         }
         assert_eq!(ulp(0.0), f64::from(f32::from_bits(1)));
         assert_eq!(FEW_ULPS, 4);
+    }
+
+    /// Rays of a box around one: its corners, its middle, and places between.
+    fn of_box(ray: &Ray, entry: DVec2, travel: DVec2) -> impl Iterator<Item = Ray> {
+        let ways = [-1.0, -0.3, 0.0, 0.6, 1.0];
+        let two = move || ways.into_iter().flat_map(move |x| ways.map(|y| DVec2::new(x, y)));
+        let ray = *ray;
+        two().flat_map(move |a| {
+            two().map(move |b| Ray {
+                uv_top: ray.uv_top + a * entry,
+                delta: ray.delta + b * travel,
+            })
+        })
+    }
+
+    /// The rays of a box whose answers lie outside of a span.
+    fn outside(surface: &Surface<'_>, ray: &Ray, entry: DVec2, travel: DVec2, span: &super::Span) -> usize {
+        let beyond = |ray: &Ray| {
+            let uv = surface.answers(ray).truth.uv;
+            uv.cmplt(span.low).any() || uv.cmpgt(span.high).any()
+        };
+        of_box(ray, entry, travel).filter(beyond).count()
+    }
+
+    #[test]
+    fn a_span_holds_the_hits_of_every_ray_of_its_box_and_that_of_a_smaller_box_does_not() {
+        let (mut wide, mut missed) = (0, 0);
+        for (top, edge) in [
+            (0.9, EdgeMode::Wrap),
+            (0.5, EdgeMode::Mirror),
+            (1.0, EdgeMode::Clamp),
+        ] {
+            let field = wall(top);
+            let surface = Surface::new(&field, edge);
+            for step in 0..24 {
+                let ray = Ray {
+                    uv_top: DVec2::new(0.013 * f64::from(step), 0.4),
+                    delta: DVec2::new(0.35, 0.02 * f64::from(step % 5)),
+                };
+                let (entry, travel) = (DVec2::new(0.004, 0.002), DVec2::new(0.003, 0.001));
+                let span = surface.span(&ray, entry, travel);
+                assert_eq!(
+                    outside(&surface, &ray, entry, travel, &span),
+                    0,
+                    "{ray:?} {span:?}"
+                );
+                let smaller = surface.span(&ray, 0.25 * entry, 0.25 * travel);
+                missed += outside(&surface, &ray, entry, travel, &smaller);
+                wide += usize::from(span.texels > 5.0);
+            }
+        }
+        assert!(missed > 0, "smaller boxes hold all");
+        assert!(wide > 0, "no box of rays grazes the wall");
     }
 }

@@ -55,7 +55,7 @@ impl Draw {
     #[must_use]
     pub fn passes(&self) -> Vec<Pass> {
         let fragments = self.features.stages().iter().filter_map(|&stage| match stage {
-            Stage::Vertex | Stage::FragmentCapture => None,
+            Stage::Vertex | Stage::FragmentCapture | Stage::FragmentGivenHit => None,
             Stage::Fragment | Stage::SecondPass => Some(Pass {
                 fragment: stage,
                 multiplies: stage == Stage::SecondPass,

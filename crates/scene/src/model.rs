@@ -264,11 +264,13 @@ pub enum TechniquePin {
     ConeStep,
     /// `relaxed_cone_step`.
     RelaxedConeStep,
+    /// `exact`.
+    Exact,
 }
 
 impl TechniquePin {
     /// Every word and what it means.
-    pub const NAMES: [(&'static str, Self); 13] = [
+    pub const NAMES: [(&'static str, Self); 14] = [
         ("auto", Self::Auto),
         ("none", Self::None),
         ("parallax_offset", Self::ParallaxOffset),
@@ -282,6 +284,7 @@ impl TechniquePin {
         ("relief", Self::Relief),
         ("cone_step", Self::ConeStep),
         ("relaxed_cone_step", Self::RelaxedConeStep),
+        ("exact", Self::Exact),
     ];
 
     /// The word used in scene files and on the command line.
@@ -307,6 +310,7 @@ impl TechniquePin {
             Self::Relief => Some(Relief::Relief),
             Self::ConeStep => Some(Relief::ConeStep),
             Self::RelaxedConeStep => Some(Relief::RelaxedConeStep),
+            Self::Exact => Some(Relief::Exact),
         }
     }
 }

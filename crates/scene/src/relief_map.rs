@@ -1,10 +1,11 @@
 //! What a search along the view ray reads besides heights, baked from them: `relief_map`, whose layout goes with the technique.
 //!
+//! - `exact`: window maxima, one level of 8 bits;
 //! - `cone_step`, `relaxed_cone_step`: heights in red, ratios of cones in green, one level;
 //! - `parallax_iterative`: heights in red, in green the third component of the surface's unit normal, one level.
 
 use bossage_assets::height_to_normal::{self, Bake};
-use bossage_assets::{EdgeMode, HeightField, NormalCodec, cone_map, relaxed_cone_map};
+use bossage_assets::{EdgeMode, HeightField, NormalCodec, cone_map, relaxed_cone_map, window_maxima};
 use bossage_shaders::Relief;
 
 use crate::model::HeightSource;
@@ -17,6 +18,7 @@ pub(crate) fn bake(relief: Relief, height: Option<&HeightSource>, edge: EdgeMode
     match relief {
         Relief::ConeStep => Some(pairs(field, &cone_map::bake(field, edge).ratios)),
         Relief::RelaxedConeStep => Some(pairs(field, &relaxed_cone_map::bake(field, edge).ratios)),
+        Relief::Exact => Some(windows(field, edge)),
         Relief::ParallaxIterative => Some(pairs(field, &normals_z(field, height, edge))),
         Relief::None
         | Relief::ParallaxOffset
@@ -44,6 +46,15 @@ fn normals_z(field: &HeightField, height: Option<&HeightSource>, edge: EdgeMode)
             normals.iter().map(|normal| normal.z).collect()
         },
     )
+}
+
+fn windows(field: &HeightField, edge: EdgeMode) -> Texture {
+    let windows = window_maxima::bake(field, edge);
+    Texture::plane(vec![Level {
+        width: 2 * windows.columns,
+        height: 2 * windows.rows,
+        texels: Texels::Rgba8Unorm(windows.texels),
+    }])
 }
 
 fn pairs(field: &HeightField, numbers: &[f32]) -> Texture {

@@ -44,7 +44,7 @@
 //! | `materials.alpha.mode` | `opaque`, `mask` | `opaque`; with `wrap_lambert` `mask` at 0.01 |
 //! | `materials.alpha.cutoff` | in (0, 1], `mask` only | required with `mask` |
 //! | `materials.address` | `wrap`, `mirror`, `clamp` | `wrap` |
-//! | `materials.technique` | `auto`, `none`, `parallax_offset`, `parallax_offset_limited`, `parallax_slope_ao`, `parallax_slope_ao_directed`, `displacement`, `parallax_iterative`, `steep_parallax`, `parallax_occlusion`, `relief`, `cone_step`, `relaxed_cone_step` | `auto` |
+//! | `materials.technique` | `auto`, `none`, `parallax_offset`, `parallax_offset_limited`, `parallax_slope_ao`, `parallax_slope_ao_directed`, `displacement`, `parallax_iterative`, `steep_parallax`, `parallax_occlusion`, `relief`, `cone_step`, `relaxed_cone_step`, `exact` | `auto` |
 //! | `materials.iterations` | 1 to 4096; `parallax_iterative` only | `4` |
 //! | `materials.layers` | 1 to 4096; `steep_parallax`, `parallax_occlusion`, `relief` only | `32`; `16` of `relief` |
 //! | `materials.steps` | 1 to 4096; `cone_step`, `relaxed_cone_step` only | `32`; `16` of `relaxed_cone_step` |
@@ -148,6 +148,7 @@ pub fn search(pin: TechniquePin) -> Option<Search> {
             steps: 16,
             refinements: 5,
         }),
+        TechniquePin::Exact => Some(Search::Exact),
         TechniquePin::Auto
         | TechniquePin::None
         | TechniquePin::ParallaxSlopeAo

@@ -87,8 +87,7 @@ impl Technique {
             Self::Search(Search::Relief { .. }) => Some(Relief::Relief),
             Self::Search(Search::ConeStep { .. }) => Some(Relief::ConeStep),
             Self::Search(Search::RelaxedConeStep { .. }) => Some(Relief::RelaxedConeStep),
-            // Its walk has no interval that a whole surface could be judged by.
-            Self::Search(Search::Exact) => None,
+            Self::Search(Search::Exact) => Some(Relief::Exact),
         }
     }
 
@@ -109,7 +108,8 @@ impl Technique {
             | TechniquePin::ParallaxOcclusion
             | TechniquePin::Relief
             | TechniquePin::ConeStep
-            | TechniquePin::RelaxedConeStep => material
+            | TechniquePin::RelaxedConeStep
+            | TechniquePin::Exact => material
                 .search
                 .filter(|search| search.id() == pin.as_str())
                 .or_else(|| schema::search(pin))

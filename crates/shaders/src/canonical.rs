@@ -9,7 +9,8 @@
 //! - `dot3` reads a normal map and shifts nothing; in two passes the mask would be known only in the second, so there is none;
 //! - `parallax_slope_ao` reads a normal map, and goes without a reflection; the directed form is a cure, so it has one form;
 //! - `displacement` makes its own normals: no normal map;
-//! - a search along the view ray goes with `blinn_phong` and has one form;
+//! - a search along the view ray goes with `blinn_phong` and has one form; `exact` always carries the handedness, one factor beside
+//!   its walk, and so takes half as many modules;
 //! - a reflection is as bright as the specular colour, so where there is light there is a highlight too, and it is looked up in
 //!   world space.
 //!
@@ -31,7 +32,7 @@ impl FeatureSet {
     /// - neither light, relief nor reflection → no vector of any kind: no space, no transform of directions, no form
     /// - published formulas transform normals by the object's matrix itself → no cofactor matrix
     /// - object space needs angles kept and one light: otherwise world space
-    /// - no tangent frame → no handedness
+    /// - no tangent frame → no handedness; `exact` → always
     /// - `dot3` through a cube map divides by nothing → its forms are one
     ///
     /// What goes with what is said in the module `canonical`.
@@ -56,6 +57,8 @@ impl FeatureSet {
         }
         if !self.has_tangent() {
             self.mirrored_uv = false;
+        } else if self.relief == Relief::Exact {
+            self.mirrored_uv = true;
         }
         self
     }
@@ -109,7 +112,8 @@ impl FeatureSet {
             | Relief::ParallaxOcclusion
             | Relief::Relief
             | Relief::ConeStep
-            | Relief::RelaxedConeStep => self.form = Form::Hardened,
+            | Relief::RelaxedConeStep
+            | Relief::Exact => self.form = Form::Hardened,
             Relief::Displacement => self.normal = NormalSource::Geometric,
             Relief::None
             | Relief::ParallaxOffset

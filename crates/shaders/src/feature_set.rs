@@ -39,11 +39,13 @@ pub enum Relief {
     ConeStep,
     /// Cones that cross the surface once, and bisection.
     RelaxedConeStep,
+    /// The first meeting itself. Reads heights and a map of window maxima.
+    Exact,
 }
 
 impl Relief {
     /// All of them, in order.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::None,
         Self::ParallaxOffset,
         Self::ParallaxOffsetLimited,
@@ -56,6 +58,7 @@ impl Relief {
         Self::Relief,
         Self::ConeStep,
         Self::RelaxedConeStep,
+        Self::Exact,
     ];
 
     /// Whether the shift comes from the slope of the normal map and occludes ambient light.
@@ -79,7 +82,8 @@ impl Relief {
             | Self::ParallaxOcclusion
             | Self::Relief
             | Self::ConeStep
-            | Self::RelaxedConeStep => true,
+            | Self::RelaxedConeStep
+            | Self::Exact => true,
             Self::None
             | Self::ParallaxOffset
             | Self::ParallaxOffsetLimited
@@ -94,14 +98,14 @@ impl Relief {
     pub fn reads_relief_map(self) -> bool {
         matches!(
             self,
-            Self::ParallaxIterative | Self::ConeStep | Self::RelaxedConeStep
+            Self::ParallaxIterative | Self::ConeStep | Self::RelaxedConeStep | Self::Exact
         )
     }
 
     /// Whether the fragment stage reads the height map itself for it.
     #[must_use]
     pub fn reads_heights(self) -> bool {
-        self.shifts() && !self.reads_relief_map()
+        self.shifts() && (!self.reads_relief_map() || self == Self::Exact)
     }
 
     /// Whether the fragment stage shifts its texture coordinate.

@@ -38,6 +38,7 @@ pub(crate) const KNOWN: &[&str] = &[
     "exact",
     "four_loads",
     "general_transform",
+    "given_hit",
     "handedness",
     "height_map",
     "many_lights",
@@ -130,8 +131,19 @@ impl Needs {
     }
 }
 
+/// What is written for conformance, and never drawn by others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Variant {
+    /// Nothing: the module itself.
+    Plain,
+    /// The interpolated inputs are written too.
+    Capture,
+    /// The hit is an input, and the ray is written.
+    GivenHit,
+}
+
 /// The features of a fragment module, sorted.
-pub(crate) fn of_fragment(key: &FragmentKey, capture: bool) -> Vec<&'static str> {
+pub(crate) fn of_fragment(key: &FragmentKey, variant: Variant) -> Vec<&'static str> {
     let needs = Needs::of(key);
     let first_of = |pass| key.shading == Shading::Dot3TwoPass && key.pass == pass;
     let (first, second) = (first_of(Pass::First), first_of(Pass::Second));
@@ -147,7 +159,7 @@ pub(crate) fn of_fragment(key: &FragmentKey, capture: bool) -> Vec<&'static str>
         ("any_varying", needs.normal || needs.uv),
         ("bent_normal", needs.bent_normal),
         ("blinn_phong", key.shading == Shading::BlinnPhong),
-        ("capture", capture),
+        ("capture", variant == Variant::Capture),
         ("cone_step", key.relief == Relief::ConeStep),
         ("cube_normaliser", key.normaliser == Normaliser::Cube),
         ("directional_light", key.lights == Lights::Directional),
@@ -157,6 +169,8 @@ pub(crate) fn of_fragment(key: &FragmentKey, capture: bool) -> Vec<&'static str>
         ("elevation", key.relief.is_offset()),
         ("emboss", key.shading == Shading::Emboss),
         ("environment", key.environment),
+        ("exact", key.relief == Relief::Exact),
+        ("given_hit", variant == Variant::GivenHit),
         ("handedness", key.handedness),
         (
             "height_map",

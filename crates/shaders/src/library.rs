@@ -10,6 +10,8 @@ use wesl::syntax::PathOrigin;
 
 use crate::assemble::{self, Assembled, Job, Modules, Trees, path_of_file};
 use crate::check::{self, Sources};
+use crate::feature_set::Relief;
+use crate::features::Variant;
 use crate::source::Source;
 use crate::{
     Error, FeatureSet, FragmentKey, Kernel, PROBES, ProbeId, Result, Stage, TECHNIQUES, features,
@@ -167,9 +169,16 @@ impl Library {
     pub fn assemble_surface(&self, set: &FeatureSet, stage: Stage) -> Result<AssembledShader> {
         let (file, entry, on) = match stage {
             Stage::Vertex => (VERTEX_FILE, "surface_vertex", features::of_vertex(&set.vertex())),
-            Stage::Fragment => fragment(&set.fragment(), false),
-            Stage::FragmentCapture => fragment(&set.fragment(), true),
-            Stage::SecondPass => fragment(&set.second_pass().unwrap_or_else(|| set.fragment()), false),
+            Stage::Fragment => fragment(&set.fragment(), Variant::Plain),
+            Stage::FragmentCapture => fragment(&set.fragment(), Variant::Capture),
+            Stage::FragmentGivenHit if set.canonical().relief == Relief::Exact => {
+                fragment(&set.fragment(), Variant::GivenHit)
+            }
+            Stage::FragmentGivenHit => fragment(&set.fragment(), Variant::Plain),
+            Stage::SecondPass => fragment(
+                &set.second_pass().unwrap_or_else(|| set.fragment()),
+                Variant::Plain,
+            ),
         };
         let name = set.module_name(stage);
         self.assemble(file, entry, name, on)
@@ -290,11 +299,11 @@ impl Library {
 }
 
 /// File, entry and features of a fragment module.
-fn fragment(key: &FragmentKey, capture: bool) -> (&'static str, &'static str, Vec<&'static str>) {
+fn fragment(key: &FragmentKey, variant: Variant) -> (&'static str, &'static str, Vec<&'static str>) {
     (
         FRAGMENT_FILE,
         "surface_fragment",
-        features::of_fragment(key, capture),
+        features::of_fragment(key, variant),
     )
 }
 

@@ -105,6 +105,7 @@ fn relief(relief: Relief) -> Option<&'static str> {
         Relief::Relief => Some("relief"),
         Relief::ConeStep => Some("cone_step"),
         Relief::RelaxedConeStep => Some("relaxed_cone_step"),
+        Relief::Exact => Some("exact"),
     }
 }
 

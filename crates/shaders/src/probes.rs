@@ -136,11 +136,10 @@ pub const PROBES: &[Probe] = &[
         (view_dir: Vec3 Unit, normal: Vec3 MapNormal) -> (reflected: Vec3 Output)),
     probe!(environment_bump_published, "techniques"/environment_bump, Published,
         (view_dir: Vec3 Unit, normal: Vec3 MapNormal) -> (reflected: Vec3 Output)),
-    probe!(ray_grid, "techniques"/exact, Hardened, (along: Vec2 Slope)
-        -> (inverse: Vec2 Output, side: Vec2 Output, step: Vec2 Output)),
     probe!(patch_along, "techniques"/exact, Hardened,
         (h: Vec4 Height, place: Vec2 Unorm, along: Vec2 Slope, t: F32 Unorm) -> (quadratic: Vec3 Output)),
-    probe!(patch_root, "techniques"/exact, Hardened, (quadratic: Vec3 Snorm, length: F32 Unorm) -> (s: F32 Output)),
+    probe!(is_met, "techniques"/exact, Hardened, (gap: Vec3 Snorm, length: F32 Unorm) -> (met: Bool Output)),
+    probe!(first_root, "techniques"/exact, Hardened, (gap: Vec3 Snorm, length: F32 Unorm) -> (s: F32 Output)),
     probe!(frame_from_normal, "techniques"/frame_from_normal, Hardened,
         (normal: Vec3 Unit) -> (tangent: Vec3 Output, bitangent: Vec3 Output)),
     probe!(frame_from_normal_published, "techniques"/frame_from_normal, Published,

@@ -21,6 +21,9 @@ pub enum Stage {
     SecondPass,
     /// `surface_fragment` that also writes its interpolated inputs, for numeric conformance.
     FragmentCapture,
+    /// `surface_fragment` of `exact` whose hit is an input in place of the walk, and which writes the ray. It is judged in the place of
+    /// the module with the walk, and never drawn.
+    FragmentGivenHit,
 }
 
 /// Which of a permutation's draws a fragment module is for.
@@ -159,7 +162,8 @@ impl FeatureSet {
         }
     }
 
-    /// The name of a stage's module. A permutation of one pass has no second; its name is then that of the first.
+    /// The name of a stage's module. A permutation of one pass has no second, and one that walks to no exact hit none that is given one; the
+    /// name is then that of the first.
     #[must_use]
     pub fn module_name(&self, stage: Stage) -> String {
         match stage {
@@ -167,6 +171,10 @@ impl FeatureSet {
             Stage::Fragment => self.fragment().name(),
             Stage::SecondPass => self.second_pass().unwrap_or_else(|| self.fragment()).name(),
             Stage::FragmentCapture => format!("{}-capture", self.fragment().name()),
+            Stage::FragmentGivenHit if self.canonical().relief == Relief::Exact => {
+                format!("{}-given_hit", self.fragment().name())
+            }
+            Stage::FragmentGivenHit => self.fragment().name(),
         }
     }
 

@@ -120,6 +120,12 @@ const EFFECTS: &[Effect] = &[
         fragment: &["relaxed_cone_step"],
     },
     Effect {
+        name: "exact",
+        on: |set| set.relief == Relief::Exact,
+        vertex: &[],
+        fragment: &["exact", "free_until", "patch_along", "first_root", "window_map"],
+    },
+    Effect {
         name: "tangent-space vector",
         on: |set| {
             set.relief.is_offset()
@@ -404,7 +410,9 @@ fn left_behind(set: &FeatureSet, stage: Stage, wgsl: &str) -> Vec<String> {
 fn list(effect: &Effect, stage: Stage) -> &'static [&'static str] {
     match stage {
         Stage::Vertex => effect.vertex,
-        Stage::Fragment | Stage::SecondPass | Stage::FragmentCapture => effect.fragment,
+        Stage::Fragment | Stage::SecondPass | Stage::FragmentCapture | Stage::FragmentGivenHit => {
+            effect.fragment
+        }
     }
 }
 

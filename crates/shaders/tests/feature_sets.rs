@@ -70,7 +70,7 @@ fn all() -> Vec<FeatureSet> {
             .map(|form| FeatureSet { form, ..s })
             .to_vec()
     });
-    assert_eq!(sets.len(), 245_760);
+    assert_eq!(sets.len(), 266_240);
     sets
 }
 

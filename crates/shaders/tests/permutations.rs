@@ -43,6 +43,7 @@ fn surface_modules(library: &Library) -> Result<BTreeMap<String, AssembledShader
             Stage::Fragment,
             Stage::SecondPass,
             Stage::FragmentCapture,
+            Stage::FragmentGivenHit,
         ] {
             if let Entry::Vacant(vacant) = modules.entry(set.module_name(stage)) {
                 let shader = library.assemble_surface(&set, stage)?;
@@ -71,13 +72,13 @@ fn every_reachable_permutation_is_valid() -> Result<()> {
         }
         match shader.name.as_str() {
             name if name.starts_with("surface_vertex") => vertex += 1,
-            name if name.ends_with("-capture") => capture += 1,
+            name if name.ends_with("-capture") || name.ends_with("-given_hit") => capture += 1,
             _ => fragment += 1,
         }
     }
     let permutations = FeatureSet::reachable().len();
     println!(
-        "{permutations} permutations of {} modules ({vertex} vertex, {fragment} fragment), and {capture} capture modules; \
+        "{permutations} permutations of {} modules ({vertex} vertex, {fragment} fragment), and {capture} for conformance; \
          assembled in {each:?} each",
         vertex + fragment
     );

@@ -126,7 +126,12 @@ fn every_feature_is_used_and_every_used_one_is_known() -> Result<()> {
     let library = Library::embedded()?;
     let mut on = BTreeSet::new();
     for set in FeatureSet::reachable() {
-        for stage in [Stage::Vertex, Stage::Fragment, Stage::FragmentCapture] {
+        for stage in [
+            Stage::Vertex,
+            Stage::Fragment,
+            Stage::FragmentCapture,
+            Stage::FragmentGivenHit,
+        ] {
             on.extend(library.assemble_surface(&set, stage)?.features);
         }
     }

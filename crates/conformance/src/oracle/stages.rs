@@ -45,6 +45,21 @@ impl Inputs {
         self
     }
 
+    /// Adds an input of N intervals an invocation.
+    pub(crate) fn with_intervals<const N: usize>(
+        mut self,
+        name: &'static str,
+        values: impl Iterator<Item = [Interval; N]>,
+    ) -> Self {
+        self.columns.insert(name, (N, values.flatten().collect()));
+        self
+    }
+
+    /// Of how many invocations.
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
     /// What an entry point reads of them.
     fn of(&self, entry: &Entry) -> StageInputs<Accept> {
         let mut inputs = StageInputs::new(self.count);

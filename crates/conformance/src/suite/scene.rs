@@ -10,6 +10,7 @@
 
 pub mod displacement;
 mod expected;
+mod given_hit;
 mod interpolants;
 mod judge;
 pub mod permutations;

@@ -257,6 +257,13 @@ const MUTANTS: &[Mutant] = &[
         filter: "surface/hardened/permutations:shading=blinn_phong",
     },
     Mutant {
+        what: "the surface's exact walk towards the eye",
+        file: "entry/surface_fragment.wesl",
+        from: "let hit = exact(height_map, relief_map, surface_sampler, read, ray);",
+        to: "var back = ray;\n    @if(exact && !given_hit)\n    back.delta = -ray.delta;\n    @if(exact && !given_hit)\n    let hit = exact(height_map, relief_map, surface_sampler, read, back);",
+        filter: "surface/hardened/permutations:shading=blinn_phong",
+    },
+    Mutant {
         what: "the surface's search through a layer that is turned over along v",
         file: "entry/surface_fragment.wesl",
         from: "let ray = relief_ray(interpolated.uv, view_dir_ts, material.relief.xyz);",

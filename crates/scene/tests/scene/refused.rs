@@ -83,8 +83,8 @@ fn pins_that_cannot_be_honoured_are_named() {
         (
             format!("{HEIGHT}{NORMAL}technique = \"exact\"\nform = \"published\""),
             "technique",
-            "`exact` is not known",
-            "parallax_offset",
+            "`exact` has one form",
+            "set form to `hardened`",
         ),
         (
             format!("{HEIGHT}{NORMAL}technique = \"parallax_occlusion\"\nform = \"published\""),

@@ -1,12 +1,12 @@
 //! What shaders read of a map, made when one first asks for it.
 //!
-//! Heights are 32-bit floats in red. Beside them the kernel's `relief_map`: maxima with all levels for `exact`; height and cone ratio, or height
+//! Heights are 32-bit floats in red. Beside them the kernel's `relief_map`: window maxima for `exact`; height and cone ratio, or height
 //! and the normal's third component, for the techniques that read pairs.
 
 use std::sync::OnceLock;
 
 use bossage_assets::cone_map::{self, ConeMap};
-use bossage_assets::{EdgeMode, HeightField, max_mip, relaxed_cone_map};
+use bossage_assets::{EdgeMode, HeightField, relaxed_cone_map, window_maxima};
 use bossage_reference::relief_ray::Layer;
 use bossage_runner::TextureData;
 use bossage_shaders::ReliefTechnique;
@@ -72,11 +72,8 @@ impl Textures {
 
     fn maxima(&self, map: &Map) -> &TextureData {
         self.maxima.get_or_init(|| {
-            let levels = max_mip::bake(&map.field, map.edge);
-            let (first, rest) = levels.split_first().expect("a chain has its first level");
-            let base = TextureData::r32f(first.width, first.height, &first.texels);
-            rest.iter()
-                .fold(base, |texture, level| texture.with_level(&level.texels))
+            let windows = window_maxima::bake(&map.field, map.edge);
+            TextureData::rgba8(2 * windows.columns, 2 * windows.rows, &windows.texels)
         })
     }
 

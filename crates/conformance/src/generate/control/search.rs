@@ -103,14 +103,6 @@ pub(super) const ROWS: &[Known] = &[
         &[5.0, 6.0, 0.25, 0.0, 0.0, -1.0, 0.5, 0.0, 0.0, 1.0, -0.25],
         &[1.0],
     ),
-    known("ray_grid", &[4.0, -0.5], &[0.25, -2.0, 1.0, 0.0, 1.0, -1.0]),
-    known("ray_grid", &[0.0, 8.0], &[4.0, 0.125, 2.0, 1.0, 0.0, 1.0]),
-    // The least travel that is one, and the next below.
-    known(
-        "ray_grid",
-        &[2.384_185_8e-7, 2.384_185_6e-7],
-        &[4_194_304.0, 4.0, 1.0, 2.0, 1.0, 0.0],
-    ),
     // Level ground at 1/4 below a ray at the height 3/4.
     known(
         "patch_along",
@@ -128,21 +120,38 @@ pub(super) const ROWS: &[Known] = &[
         &[0.0, 1.0, 0.0, 1.0, 0.5, 0.25, 2.0, 1.0, 0.5],
         &[0.0, 3.0, 0.0],
     ),
+    // A ray that starts on its way up a slope of one, half a height under the corner that it nears: 1/4 over it at the end.
+    known(
+        "patch_along",
+        &[0.0, 1.0, 0.0, 1.0, 0.5, 0.0, 1.0, 0.0, 0.25],
+        &[-0.25, 2.0, 0.0],
+    ),
     // −1/4 + s.
-    known("patch_root", &[-0.25, 1.0, 0.0, 1.0], &[0.25]),
-    known("patch_root", &[-0.25, 1.0, 0.0, 0.125], &[-1.0]),
+    known("is_met", &[-0.25, 1.0, 0.0, 1.0], &[1.0]),
+    known("is_met", &[-0.25, 1.0, 0.0, 0.25], &[1.0]),
+    known("is_met", &[-0.25, 1.0, 0.0, 0.125], &[0.0]),
+    // −3/16 + s − s²: over the surface between 1/4 and 3/4, and not at either end.
+    known("is_met", &[-0.1875, 1.0, -1.0, 1.0], &[1.0]),
+    known("is_met", &[-0.1875, 1.0, -1.0, 0.125], &[0.0]),
+    // Its summit lies beyond the end, or under the ray.
+    known("is_met", &[-0.25, 0.5, -0.25, 0.5], &[0.0]),
+    known("is_met", &[-0.5, 1.0, -1.0, 1.0], &[0.0]),
+    known("is_met", &[0.0, -1.0, 0.0, 1.0], &[1.0]),
+    known("is_met", &[-0.5, -0.5, -1.0, 1.0], &[0.0]),
+    known("first_root", &[-0.25, 1.0, 0.0, 1.0], &[0.25]),
+    known("first_root", &[-0.25, 1.0, 0.0, 0.125], &[0.125]),
     // −1/4 + s²: a half, from ground that begins level.
-    known("patch_root", &[-0.25, 0.0, 1.0, 1.0], &[0.5]),
+    known("first_root", &[-0.25, 0.0, 1.0, 1.0], &[0.5]),
     // −3/16 − s/2 + s²: falls away first, and comes back at 3/4.
-    known("patch_root", &[-0.1875, -0.5, 1.0, 1.0], &[0.75]),
-    known("patch_root", &[-0.1875, -0.5, 1.0, 0.625], &[-1.0]),
+    known("first_root", &[-0.1875, -0.5, 1.0, 1.0], &[0.75]),
+    known("first_root", &[-0.1875, -0.5, 1.0, 0.625], &[0.625]),
     // −3/16 + s − s²: the first of 1/4 and 3/4.
-    known("patch_root", &[-0.1875, 1.0, -1.0, 1.0], &[0.25]),
-    // Never.
-    known("patch_root", &[-0.5, 1.0, -1.0, 1.0], &[-1.0]),
-    known("patch_root", &[-0.5, -0.5, -1.0, 1.0], &[-1.0]),
-    known("patch_root", &[-0.5, 0.0, 0.0, 1.0], &[-1.0]),
+    known("first_root", &[-0.1875, 1.0, -1.0, 1.0], &[0.25]),
+    // Never, and not at 4/5 either, where a discriminant that is cut off at 0 would put it.
+    known("first_root", &[-0.5, 1.25, -1.0, 1.0], &[1.0]),
+    known("first_root", &[-0.5, -0.5, -1.0, 1.0], &[1.0]),
+    known("first_root", &[-0.5, 0.0, 0.0, 1.0], &[1.0]),
     // On or above the surface already.
-    known("patch_root", &[0.0, -1.0, 0.0, 1.0], &[0.0]),
-    known("patch_root", &[0.5, 1.0, 1.0, 0.0], &[0.0]),
+    known("first_root", &[0.0, -1.0, 0.0, 1.0], &[0.0]),
+    known("first_root", &[0.5, 1.0, 1.0, 0.0], &[0.0]),
 ];

@@ -87,40 +87,34 @@ pub(super) const ROWS: Rows = &[
         };
         vec![depth]
     }),
-    ("ray_grid", |a| {
-        let axes: [[f64; 3]; 2] = a.array().map(grid);
-        (0..3).flat_map(|part| axes.map(|axis| axis[part])).collect()
-    }),
     ("patch_along", patch_along),
-    ("patch_root", |a| {
+    ("is_met", |a| {
         let [c, b, a2] = a.array();
-        vec![first_root(c, b, a2, a.scalar()).unwrap_or(-1.0)]
+        vec![f64::from(u8::from(first_root(c, b, a2, a.scalar()).is_some()))]
+    }),
+    ("first_root", |a| {
+        let [c, b, a2] = a.array();
+        let length = a.scalar();
+        vec![first_root(c, b, a2, length).unwrap_or(length)]
     }),
 ];
 
-/// Along one axis: the inverse of the travel, the side by which a square is left, and the way. Less travel than 2⁻²² is none.
-fn grid(along: f64) -> [f64; 3] {
-    if along.abs() < 2f64.powi(-22) {
-        [4.0, 2.0, 0.0]
-    } else if along > 0.0 {
-        [1.0 / along, 1.0, 1.0]
-    } else {
-        [1.0 / along, 0.0, -1.0]
-    }
-}
-
-/// The bilinear patch along place + s · along, over the ray's height 1 − t − s, by the powers of s.
+/// The bilinear patch along place + s · along, over the ray's height 1 − t − s, by the powers of s. The heights are taken over the ray
+/// first: where they meet it, f64 would lose what a place near a corner makes of them.
 fn patch_along(a: A<'_, '_>) -> Vec<f64> {
     let [h00, h10, h01, h11] = a.array();
     let (f, d, t) = (v2(a), v2(a), a.scalar());
     let g = DVec2::ONE - f;
-    let height = h00 * g.x * g.y + h10 * f.x * g.y + h01 * g.x * f.y + h11 * f.x * f.y;
+    let [o00, o10, o01, o11] = [h00, h10, h01, h11].map(|h| h - (1.0 - t));
+    let near = o00 + f.x * (o10 - o00);
+    let far = o01 + f.x * (o11 - o01);
+    let over = near + f.y * (far - near);
     let slope = DVec2::new(
         (h10 - h00) * g.y + (h11 - h01) * f.y,
         (h01 - h00) * g.x + (h11 - h10) * f.x,
     );
     let twist = h00 - h10 - h01 + h11;
-    vec![height - 1.0 + t, slope.dot(d) + 1.0, twist * d.x * d.y]
+    vec![over, slope.dot(d) + 1.0, twist * d.x * d.y]
 }
 
 /// The smallest s in [0, length] where c + b s + a s² is not below 0.

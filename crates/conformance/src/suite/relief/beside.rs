@@ -1,6 +1,7 @@
 //! What is baked from a height map for the techniques that read more than heights.
 
-use bossage_assets::{EdgeMode, HeightField, cone_map, max_mip, relaxed_cone_map};
+use bossage_assets::window_maxima::{self, WindowMaxima};
+use bossage_assets::{EdgeMode, HeightField, cone_map, relaxed_cone_map};
 use bossage_reference::relief_truth::height_at;
 use bossage_runner::TextureData;
 use bossage_shaders::ReliefTechnique;
@@ -40,7 +41,7 @@ impl Beside {
             ReliefTechnique::ConeStep => pair(cone_map::bake(field, edge).ratios),
             ReliefTechnique::RelaxedConeStep => pair(relaxed_cone_map::bake(field, edge).ratios),
             ReliefTechnique::Exact => Some(Self {
-                texture: chain(&max_mip::bake(field, edge)),
+                texture: windows(&window_maxima::bake(field, edge)),
                 second: field.clone(),
                 edge,
             }),
@@ -73,10 +74,7 @@ fn normals_z(field: &HeightField, edge: EdgeMode) -> Vec<f32> {
         .collect()
 }
 
-/// The levels of a chain as one texture.
-fn chain(levels: &[HeightField]) -> TextureData {
-    let (first, rest) = levels.split_first().expect("a chain has its first level");
-    let base = TextureData::r32f(first.width, first.height, &first.texels);
-    rest.iter()
-        .fold(base, |texture, level| texture.with_level(&level.texels))
+/// Depths over windows as the shader reads them.
+fn windows(map: &WindowMaxima) -> TextureData {
+    TextureData::rgba8(2 * map.columns, 2 * map.rows, &map.texels)
 }

@@ -108,15 +108,36 @@ const FAULTS: &[(&str, &str, &str, ReliefTechnique)] = &[
     // The other root.
     (
         "techniques/exact.wesl",
-        "(root - quadratic.y) / max",
-        "(root + quadratic.y) / max",
+        "select(root - gap.y, -2.0 * gap.x, rises)",
+        "select(root + gap.y, -2.0 * gap.x, rises)",
         ReliefTechnique::Exact,
     ),
-    // Nodes that are too low are walked over.
+    // Windows are left too late.
     (
         "techniques/exact.wesl",
-        "<= top + NODE_SLACK",
-        "<= top - 0.2",
+        "let one = t + left * course.inverse",
+        "let one = t + (left + BLOCK) * course.inverse",
+        ReliefTechnique::Exact,
+    ),
+    // Windows of rays that come from the other side.
+    (
+        "techniques/exact.wesl",
+        "(course.along >= vec2f(0.0)) != mirrored",
+        "course.along >= vec2f(0.0)",
+        ReliefTechnique::Exact,
+    ),
+    // Behind a window the walk goes on in the cell before it.
+    (
+        "techniques/exact.wesl",
+        "select(next, floor(course.origin + t * course.along - 0.5), ahead > end)",
+        "next",
+        ReliefTechnique::Exact,
+    ),
+    // A summit between the ends of a cell is passed over.
+    (
+        "techniques/exact.wesl",
+        "let summit = gap.y > 0.0",
+        "let summit = gap.y > 100.0",
         ReliefTechnique::Exact,
     ),
     // Wrong texels beyond the border.

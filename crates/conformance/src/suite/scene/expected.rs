@@ -89,16 +89,21 @@ pub(super) fn fragments(
     stage: Stage,
     points: &[Interpolants],
 ) -> Result<Vec<Fragment>, String> {
-    let intervals = rig.intervals(stage, &Interpolants::inputs(points))?;
+    let (intervals, joined) = rig.intervals(stage, &Interpolants::inputs(points))?;
     let truths = truths(rig.draw(), stage, points);
     let both = truths.into_iter().enumerate().map(|(at, truth)| {
         Ok(Fragment {
             truth,
-            color: intervals.location(0, at)?,
+            color: either(intervals.location(0, at)?, joined[at]),
             kept: intervals.kept(at),
         })
     });
     both.collect()
+}
+
+/// The same numbers, joined from several results where that is said.
+fn either(color: [Bound; 4], joined: bool) -> [Bound; 4] {
+    color.map(|channel| if joined { channel.forked() } else { channel })
 }
 
 /// The reference's colours; `None` where it discards.

@@ -8,7 +8,7 @@ use bossage_shaders::{Alpha, FeatureSet, Stage};
 
 use super::expected::{Expectations, Fragment, Points};
 use super::interpolants::Interpolants;
-use super::rig::Rig;
+use super::rig::{self, Rig};
 use crate::bench::Bench;
 use crate::module::Module;
 
@@ -113,8 +113,10 @@ pub(super) fn uncut(features: &FeatureSet) -> FeatureSet {
 /// What [`Object::render`] asks the bench for.
 pub(super) fn modules(draw: &Draw) -> Vec<Module> {
     let module = |features: FeatureSet| move |stage: Stage| Module::Surface { features, stage };
-    let pictures = passes(draw).into_iter().chain([Stage::Vertex]);
+    let stages = passes(draw);
+    let evaluated = rig::evaluated(&draw.features, &stages);
     let captures = [Stage::Vertex, Stage::FragmentCapture].into_iter();
+    let pictures = stages.into_iter().chain(evaluated).chain([Stage::Vertex]);
     pictures
         .map(module(draw.features))
         .chain(captures.map(module(uncut(&draw.features))))

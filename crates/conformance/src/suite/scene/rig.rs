@@ -8,10 +8,11 @@ use bossage_runner::{
     SamplerSettings, Shader, TextureData,
 };
 use bossage_scene::Draw;
-use bossage_shaders::{FeatureSet, Stage};
+use bossage_shaders::{FeatureSet, Relief, Stage};
 use bossage_translate::manifest::Entry;
 
 use super::upload::{address, mesh, textures};
+use super::{given_hit, truth};
 use crate::bench::Bench;
 use crate::case::with_causes;
 use crate::module::Module;
@@ -27,6 +28,8 @@ pub(super) struct Rig<'a> {
     draw: &'a Draw,
     vertex: Arc<Prepared>,
     fragments: BTreeMap<Stage, Arc<Prepared>>,
+    /// What is evaluated in place of the fragment module with an exact walk.
+    given_hit: Option<Arc<Prepared>>,
     mesh: Mesh,
     textures: Vec<(String, TextureData)>,
     filter: Filter,
@@ -48,6 +51,10 @@ impl<'a> Rig<'a> {
             draw,
             vertex: module(Stage::Vertex)?,
             fragments: fragments.iter().map(prepared).collect::<Result<_, String>>()?,
+            given_hit: match evaluated(&features, fragments) {
+                Some(stage) => Some(module(stage)?),
+                None => None,
+            },
             mesh: mesh(draw),
             textures: textures(draw),
             filter: SamplerSettings::default().filter,
@@ -94,16 +101,25 @@ impl<'a> Rig<'a> {
         stage.vertices(&inputs)
     }
 
-    /// The acceptance intervals of a fragment module's outputs.
-    pub(super) fn intervals(&self, stage: Stage, inputs: &Inputs) -> Result<Outputs, String> {
-        let module = self.module(stage)?;
+    /// The acceptance intervals of a fragment module's outputs, and of which invocations they join several hits.
+    pub(super) fn intervals(&self, stage: Stage, inputs: &Inputs) -> Result<(Outputs, Vec<bool>), String> {
+        let given_hit = self.given_hit.as_deref().filter(|_| stage == Stage::Fragment);
+        let module = match given_hit {
+            Some(module) => module,
+            None => self.module(stage)?,
+        };
         let stage = oracle::Stage {
             module,
             entry: FRAGMENT,
             resources: &self.resources(&[&module.shader(FRAGMENT)?]),
             ideal_filter: self.ideal_filter,
         };
-        stage.fragments(inputs)
+        if given_hit.is_none() {
+            return Ok((stage.fragments(inputs)?, vec![false; inputs.count()]));
+        }
+        let features = self.draw.features.canonical();
+        let maps = truth::search::maps(self.draw, &features).ok_or("the draw has no heights to search")?;
+        given_hit::intervals(&stage, inputs, &maps.heights, self.draw.edge)
     }
 
     /// The entry point of a fragment module.
@@ -166,6 +182,12 @@ impl<'a> Rig<'a> {
         let targets = vec![RenderTarget::floats(Clear::Sentinel); targets];
         render(bench, &job(&self.draw.object, size, targets, vec![vec![draw]]))
     }
+}
+
+/// The module that is evaluated in place of the drawn one, where that walks to an exact hit.
+pub(super) fn evaluated(features: &FeatureSet, fragments: &[Stage]) -> Option<Stage> {
+    let walks = features.canonical().relief == Relief::Exact && fragments.contains(&Stage::Fragment);
+    walks.then_some(Stage::FragmentGivenHit)
 }
 
 /// A job without its depth.

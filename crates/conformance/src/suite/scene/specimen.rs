@@ -187,6 +187,7 @@ fn search(relief: Relief) -> Option<Search> {
             steps: 3,
             refinements: 2,
         }),
+        Relief::Exact => Some(Search::Exact),
         Relief::None
         | Relief::ParallaxOffset
         | Relief::ParallaxOffsetLimited
@@ -232,6 +233,7 @@ fn furnish(material: &mut Material, features: &FeatureSet) -> Result<(), String>
         Relief::Relief => TechniquePin::Relief,
         Relief::ConeStep => TechniquePin::ConeStep,
         Relief::RelaxedConeStep => TechniquePin::RelaxedConeStep,
+        Relief::Exact => TechniquePin::Exact,
     };
     material.search = search(features.relief);
     material.shading = features.shading;

@@ -2,7 +2,7 @@
 //!
 //! Values are read by their names in the shader interface; which of them count follows from the feature set.
 
-mod search;
+pub(super) mod search;
 
 use bossage_reference::cube::Seams;
 use bossage_reference::dot3_single_pass::Normaliser;
@@ -113,7 +113,8 @@ fn relief(draw: &Draw, features: &FeatureSet) -> Relief {
         | Feature::ParallaxOcclusion
         | Feature::Relief
         | Feature::ConeStep
-        | Feature::RelaxedConeStep => Relief::None,
+        | Feature::RelaxedConeStep
+        | Feature::Exact => Relief::None,
         Feature::ParallaxOffset => Relief::Offset {
             form,
             scale,
@@ -154,7 +155,9 @@ fn shading(draw: &Draw, features: &FeatureSet, stage: Stage) -> Shading {
             normaliser,
             pass: match stage {
                 Stage::SecondPass => Pass::Second,
-                Stage::Vertex | Stage::Fragment | Stage::FragmentCapture => Pass::First,
+                Stage::Vertex | Stage::Fragment | Stage::FragmentCapture | Stage::FragmentGivenHit => {
+                    Pass::First
+                }
             },
         },
     }

@@ -23,6 +23,7 @@ pub(super) fn of(draw: &Draw, features: &FeatureSet) -> Option<Search> {
         }),
         Relief::ConeStep => Some(Search::ConeStep { steps }),
         Relief::RelaxedConeStep => Some(Search::RelaxedConeStep { steps, refinements }),
+        Relief::Exact => Some(Search::Exact),
         Relief::None
         | Relief::ParallaxOffset
         | Relief::ParallaxOffsetLimited
@@ -33,7 +34,7 @@ pub(super) fn of(draw: &Draw, features: &FeatureSet) -> Option<Search> {
 }
 
 /// The maps as the shader reads them: heights from their own map or from the red of the baked one, the rest from its green.
-pub(super) fn maps(draw: &Draw, features: &FeatureSet) -> Option<SearchMaps> {
+pub(in super::super) fn maps(draw: &Draw, features: &FeatureSet) -> Option<SearchMaps> {
     if !features.relief.is_search() {
         return None;
     }
@@ -42,7 +43,7 @@ pub(super) fn maps(draw: &Draw, features: &FeatureSet) -> Option<SearchMaps> {
     } else {
         "relief_map"
     };
-    let baked = plane(draw, "relief_map").filter(|_| features.relief.reads_relief_map());
+    let baked = plane(draw, "relief_map").filter(|_| !features.relief.reads_heights());
     Some(SearchMaps {
         heights: heights(&plane(draw, name)?),
         cones: baked.as_ref().map(cones),

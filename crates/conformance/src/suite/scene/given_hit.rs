@@ -1,0 +1,69 @@
+//! The acceptance intervals of a surface with `exact`, around its walk.
+//!
+//! A walk has no useful interval: it goes from border to border of blocks of texels, where each next block is undecided. What it finds is judged by
+//! itself (`suite::relief::exact`): within 0.01 texel of the true hit of a ray within 4 ULP of its own. So the surface is evaluated as
+//! a variant of the same module to which the hit is given, twice: first for the interval of the ray that the walk is handed, then with
+//! all hits given that the rays of this interval may have.
+//!
+//! The colour is then that of any hit of any such ray. Where these lie further apart than a hit may be off, as where rays graze a
+//! crest, the outputs join several results, and count as undecided.
+
+use bossage_assets::{EdgeMode, HeightField};
+use bossage_bounds::{Flags, Interval};
+use bossage_reference::relief_grazing::{Span, Surface, TOLERANCE_TEXELS};
+use bossage_reference::relief_ray::Ray;
+use glam::DVec2;
+use rayon::prelude::*;
+
+use crate::bound::Bound;
+use crate::oracle::stages::{Inputs, Outputs, Stage};
+
+/// The input of the variant.
+const HIT: &str = "hit_uv";
+
+/// Where it writes its ray.
+const RAY: u32 = 1;
+
+/// The intervals, and of which invocations the hits lie apart.
+pub(super) fn intervals(
+    stage: &Stage<'_>,
+    inputs: &Inputs,
+    heights: &HeightField,
+    edge: EdgeMode,
+) -> Result<(Outputs, Vec<bool>), String> {
+    let anywhere = [Interval::unknown(Flags::UNDECIDED); 2];
+    let nowhere = inputs
+        .clone()
+        .with_intervals(HIT, (0..inputs.count()).map(|_| anywhere));
+    let rays = stage.fragments(&nowhere)?;
+    let rays = (0..inputs.count()).map(|at| rays.location::<4>(RAY, at));
+    let rays = rays.collect::<Result<Vec<_>, _>>()?;
+    let surface = Surface::new(heights, edge);
+    let spans: Vec<Option<Span>> = rays.par_iter().map(|ray| span(&surface, ray)).collect();
+    let hits = spans.iter().map(|span| {
+        span.map_or(anywhere, |span| {
+            [0, 1].map(|axis| Interval::new(span.low[axis], span.high[axis]))
+        })
+    });
+    let outputs = stage.fragments(&inputs.clone().with_intervals(HIT, hits))?;
+    let apart = |span: &Option<Span>| span.is_some_and(|span| span.texels > TOLERANCE_TEXELS);
+    Ok((outputs, spans.iter().map(apart).collect()))
+}
+
+/// Where the hits of the rays of a box lie; none where the ray is open.
+fn span(surface: &Surface<'_>, ray: &[Bound; 4]) -> Option<Span> {
+    if !ray.iter().all(Bound::is_decided) {
+        return None;
+    }
+    let low = ray.each_ref().map(Bound::low);
+    let high = ray.each_ref().map(Bound::high);
+    let two = |numbers: [f64; 4], first: usize| DVec2::new(numbers[first], numbers[first + 1]);
+    let middle = |first| 0.5 * (two(low, first) + two(high, first));
+    let ray = Ray {
+        uv_top: middle(0),
+        delta: middle(2),
+    };
+    // To the further end, whatever the rounding of the middle.
+    let reach = |first: usize, middle: DVec2| (two(high, first) - middle).max(middle - two(low, first));
+    Some(surface.span(&ray, reach(0, ray.uv_top), reach(2, ray.delta)))
+}
