@@ -25,6 +25,7 @@ pub mod bound;
 pub mod case;
 pub mod case_id;
 pub mod compare;
+mod concurrent;
 pub mod deviation;
 mod dispatch;
 pub mod environment;
