@@ -35,6 +35,9 @@ const PLAIN: [&str; 20] = [
 /// What `dxc` is built of.
 const DXC_PROGRAM: &str = "crates/translate/tools/dxc.cpp";
 
+/// What `dawn` is.
+const DAWN_PROGRAM: &str = "crates/translate/tools/dawn.cjs";
+
 /// A copy of the scripts with a lock of their own, a cache, and a path.
 struct Place {
     folder: tempfile::TempDir,
@@ -53,7 +56,7 @@ impl Place {
             fs::create_dir_all(place.path(folder)).unwrap();
         }
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        for script in ["x", "tools/full.sh", DXC_PROGRAM] {
+        for script in ["x", "tools/full.sh", DXC_PROGRAM, DAWN_PROGRAM] {
             fs::create_dir_all(place.path(script).parent().unwrap()).unwrap();
             fs::copy(root.join(script), place.path(script)).unwrap();
         }
@@ -185,6 +188,37 @@ impl Place {
         self
     }
 
+    /// A registry that has Dawn's package, a node that runs anything, and a lock that pins the package with a hash; without one, with its
+    /// own.
+    fn with_registry(self, hash: Option<&str>) -> Self {
+        let inside = self.path("npm/package");
+        fs::create_dir_all(inside.join("dist/linux-x64")).unwrap();
+        for (file, content) in [
+            ("dist/linux-x64/dawn.node", "the library"),
+            ("package.json", "{}"),
+            ("LICENSE.md", "its terms"),
+        ] {
+            fs::write(inside.join(file), content).unwrap();
+        }
+        let archive = self.path("package.deb");
+        let mut pack = Command::new("tar");
+        pack.arg("-czf").arg(&archive).arg("-C").arg(self.path("npm"));
+        assert!(pack.arg("package").status().unwrap().success());
+        let archive = archive.display();
+        self.program("uname", "echo here");
+        self.program("node", "exit 0");
+        self.program(
+            "npm",
+            &format!(
+                "[[ \"$*\" == *' --ignore-scripts '*'webgpu@1.0' ]] || exit 1\nwhile [ \"$1\" != --pack-destination ]; do shift; done\ncp {archive} \"$2/webgpu-1.0.tgz\""
+            ),
+        );
+        let hash = hash.map_or_else(|| self.hash(), str::to_owned);
+        let line = format!("dawn\tnpm\twebgpu\t1.0\there\t{hash}\tBSD-3-Clause\n");
+        fs::write(self.path("tools/lock.tsv"), line).unwrap();
+        self
+    }
+
     /// Everything in the cache's folder of tools, hidden things too.
     fn cached(&self) -> Vec<String> {
         let Ok(entries) = fs::read_dir(self.path(".cache/bossage/tools")) else {
@@ -307,6 +341,54 @@ fn without_a_compiler_to_build_it_with_the_way_is_said() {
     );
     assert!(
         said.contains("DISABLED route hlsl") && said.contains("put a dxc on the PATH"),
+        "{said}"
+    );
+    assert_eq!(place.cached(), [""; 0]);
+}
+
+#[test]
+fn a_package_of_the_registry_is_unpacked_linked_and_fetched_once() {
+    let place = Place::new().with_registry(None);
+    let said = place.setup();
+    assert!(said.contains("dawn 1.0 (BSD-3-Clause) is in"), "{said}");
+    assert_eq!(place.cached(), ["bin", "dawn"]);
+    let tools = place.path(".cache/bossage/tools");
+    let library = fs::read_to_string(tools.join("bin/../dawn/lib/dawn.node")).unwrap();
+    assert_eq!(library, "the library");
+    assert!(
+        tools.join("bin/dawn").is_file(),
+        "a link that leads to the program"
+    );
+    assert!(
+        !place.setup().contains("fetching dawn"),
+        "it is not fetched again"
+    );
+}
+
+#[test]
+fn a_package_of_the_registry_with_another_hash_is_not_used() {
+    let wrong = "0".repeat(64);
+    let place = Place::new().with_registry(Some(&wrong));
+    let said = place.setup();
+    assert!(
+        said.contains(&place.hash()) && said.contains("it is not used"),
+        "{said}"
+    );
+    assert!(said.contains("DISABLED route tint"), "{said}");
+    assert_eq!(place.cached(), [""; 0]);
+}
+
+#[test]
+fn without_node_the_way_is_said() {
+    let place = Place::new().with_registry(None);
+    fs::remove_file(place.path("bin/node")).unwrap();
+    let said = place.setup();
+    assert!(
+        said.contains("its program is run by node, which is missing"),
+        "{said}"
+    );
+    assert!(
+        said.contains("DISABLED route tint") && said.contains("node 20 or later"),
         "{said}"
     );
     assert_eq!(place.cached(), [""; 0]);

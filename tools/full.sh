@@ -9,7 +9,7 @@
 # DISABLED line), and `unpack_TOOL PACKAGE FOLDER`, which leaves in the folder just what is needed. Programs in the folder's `bin` are
 # linked from `bin` beside the folders, where `bossage` looks for them after the `PATH`.
 
-full_tools="swiftshader dxc"
+full_tools="swiftshader dxc dawn"
 
 tools_folder() { echo "${BOSSAGE_TOOLS:-${XDG_CACHE_HOME:-$HOME/.cache}/bossage/tools}"; }
 
@@ -41,6 +41,7 @@ download() {
     case $(locked "$1" source) in
         debian) download_from_debian "$@" ;;
         pypi) download_from_pypi "$@" ;;
+        npm) download_from_npm "$@" ;;
         *) say "setup: $1: tools/lock.tsv names no source that is known" && return 1 ;;
     esac
 }
@@ -72,12 +73,22 @@ download_from_pypi() {
         --dest "$folder" --requirement "$folder.requirements" >&2
 }
 
+# The pinned version or none: that index drops nothing either. Nothing of the package is run, and what npm keeps for itself goes with
+# the work folder.
+download_from_npm() {
+    local tool=$1 folder=$2
+    have npm || return 1
+    is_for_this_machine "$tool" || return 1
+    npm pack --silent --ignore-scripts --no-update-notifier --cache "$folder.cache" --pack-destination "$folder" \
+        "$(locked "$tool" package)@$(locked "$tool" version)" >/dev/null
+}
+
 # Whether a pinned package is one for this processor, in the words of its source.
 is_for_this_machine() {
     local here
     case $(locked "$1" source) in
         debian) here=$(dpkg --print-architecture 2>/dev/null) ;;
-        pypi) here=$(uname -m) ;;
+        pypi | npm) here=$(uname -m) ;;
     esac
     [ "$here" = "$(locked "$1" architecture)" ]
 }
@@ -86,7 +97,7 @@ is_for_this_machine() {
 version_of() {
     case $(locked "$1" source) in
         debian) dpkg-deb -f "$2" Version ;;
-        pypi) locked "$1" version ;;
+        pypi | npm) locked "$1" version ;;
     esac
 }
 
@@ -150,6 +161,8 @@ setup_full() {
         fi
         say "setup: DISABLED $("loss_without_$tool") ($tool is missing; $("way_to_$tool"))"
     done
+    have python3 || say "setup: DISABLED route opengl (python3 is missing; on Debian: apt install python3 libegl1 libgl1-mesa-dri)"
+    say "setup: DISABLED the check of HLSL for shader models 5.0 and 5.1 as such (fxc is missing; packages that bring it state no terms for it)"
 }
 
 # --- SwiftShader: a second Vulkan driver on the CPU, which comes with Chromium --------------------------------------------
@@ -195,4 +208,23 @@ unpack_dxc() {
         && member "$inside/LICENSE" LICENSE.package || return 1
     g++ -std=c++17 -O1 -I "$folder/include" -o "$folder/bin/dxc" crates/translate/tools/dxc.cpp -ldl >&2 || return 1
     "$folder/bin/dxc" --version >/dev/null
+}
+
+# --- Dawn: the WebGPU of Chromium, whose compiler is Tint; the library from a package that brings it, run by node --------------
+
+loss_without_dawn() { echo "route tint and the external check of WGSL"; }
+
+way_to_dawn() { echo "have node 20 or later and npm on the PATH, on x86-64 Linux, and run ./x setup --full again"; }
+
+# Of the package only the library for Linux, its licence and its description are used; the program is ours.
+unpack_dawn() {
+    local package=$1 folder=$2
+    have node || { say "setup: dawn: its program is run by node, which is missing"; return 1; }
+    mkdir -p "$folder/bin" "$folder/lib" || return 1
+    member() { tar -xzOf "$package" "package/$1" >"$folder/$2"; }
+    member dist/linux-x64/dawn.node lib/dawn.node \
+        && member package.json lib/package.json \
+        && member LICENSE.md LICENSE.package || return 1
+    cp crates/translate/tools/dawn.cjs "$folder/bin/dawn" && chmod +x "$folder/bin/dawn" || return 1
+    "$folder/bin/dawn" --version >/dev/null
 }

@@ -230,7 +230,7 @@ fn without_a_driver_everything_runs_embedded_and_says_so() {
         .iter()
         .map(|one| one["route"].as_str().unwrap())
         .collect();
-    assert_eq!(routes, ["wgsl", "spirv", "hlsl", "glsl"]);
+    assert_eq!(routes, ["wgsl", "spirv", "hlsl", "glsl", "opengl", "tint"]);
     assert!(
         left_out[0]["reason"]
             .as_str()

@@ -7,7 +7,7 @@ use bossage_runner::Machine;
 use bossage_shaders::Library;
 
 use crate::module::Module;
-use crate::route::{Prepared, Route};
+use crate::route::{Fault, Prepared, Route};
 
 /// An adapter and a route, with what has been prepared for them.
 #[derive(Debug)]
@@ -18,6 +18,7 @@ pub struct Bench<'a> {
     pub route: Route,
     /// The shaders.
     pub library: &'a Library,
+    fault: Option<&'a Fault>,
     prepared: Mutex<BTreeMap<Module, Arc<Prepared>>>,
 }
 
@@ -29,8 +30,15 @@ impl<'a> Bench<'a> {
             device,
             route,
             library,
+            fault: None,
             prepared: Mutex::default(),
         }
+    }
+
+    /// The same with a fault in what its route emits, if it is one of that route.
+    #[must_use]
+    pub fn planted(self, fault: Option<&'a Fault>) -> Self {
+        Self { fault, ..self }
     }
 
     /// That module, prepared once. A case asks for none that [`Case::modules`](crate::case::Case::modules) does not name.
@@ -43,7 +51,7 @@ impl<'a> Bench<'a> {
             return Ok(Arc::clone(found));
         }
         let assembled = module.assemble(self.library).map_err(|error| error.to_string())?;
-        let made = Arc::new(self.route.prepare(&assembled)?);
+        let made = Arc::new(self.route.prepare_with(&assembled, self.fault)?);
         prepared.insert(*module, Arc::clone(&made));
         Ok(made)
     }

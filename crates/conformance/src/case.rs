@@ -3,6 +3,7 @@
 use crate::bench::Bench;
 use crate::case_id::CaseId;
 use crate::compare::Comparison;
+use crate::concurrent;
 use crate::module::Module;
 use crate::report::CaseResult;
 use crate::verdict::Verdict;
@@ -29,9 +30,9 @@ pub trait Case: Send + Sync {
     /// Runs and judges it.
     fn run(&self, bench: &Bench<'_>) -> Outcome;
 
-    /// Runs and judges it on each bench. A case whose expectation is too large to keep computes it once for all of them here.
+    /// Runs and judges it on each bench, several machines at once. A case whose expectation is too large to keep computes it once for all of them here.
     fn run_all(&self, benches: &[Bench<'_>]) -> Vec<Outcome> {
-        benches.iter().map(|bench| self.run(bench)).collect()
+        concurrent::on_each(benches, |bench| self.run(bench))
     }
 }
 

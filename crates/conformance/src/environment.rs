@@ -85,7 +85,8 @@ impl Environment {
         );
         rows.extend(self.not_run.iter().map(|one| {
             let reason = format!("not run: {}", one.reason);
-            (format!("route {}", one.route), reason)
+            let on = one.adapter.iter().map(|adapter| format!(" on {adapter}"));
+            (format!("route {}{}", one.route, on.collect::<String>()), reason)
         }));
         rows.extend(
             self.versions

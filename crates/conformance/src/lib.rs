@@ -26,6 +26,7 @@ pub mod case;
 pub mod case_id;
 pub mod compare;
 pub mod cone_passes;
+mod concurrent;
 pub mod deviation;
 mod dispatch;
 pub mod environment;

@@ -1,24 +1,27 @@
 //! Which machine runs which routes.
 //!
-//! Route `embedded` is what the adapter `embedded` does, the others go to drivers: a pair that makes no sense is not in the list. What
-//! a selection names must be in some pair, or the call is wrong; a route that nobody named and that has no adapter, or whose compiler
-//! is missing, is left out, and the report says so.
+//! Route `embedded` is what the adapter `embedded` does, the others go to drivers, `tint` and `opengl` through processes of their own: a pair that makes no sense is
+//! not in the list. What a selection names must be in some pair, or the call is wrong; a route that nobody named and that has no
+//! adapter, or whose compiler is missing, is left out, and the report says so. So is an adapter that such a process does not take.
 
-use bossage_embedded::{adapters, open};
+use bossage_embedded::adapters;
 use bossage_runner::{AdapterInfo, AdapterSelector, HOW_TO_GET_AN_ADAPTER, Machine};
 use bossage_shaders::Library;
 use serde::Serialize;
 
 use crate::bench::Bench;
 use crate::error::Error;
-use crate::route::Route;
+use crate::route::{Route, opengl, tint};
 use crate::run::Selection;
 
-/// A route that no adapter of this machine runs.
+/// A route that no adapter of this machine runs, or that one adapter does not.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct NotRun {
     /// The route.
     pub route: Route,
+    /// The only adapter that does not run it; `None` where none does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub adapter: Option<String>,
     /// Why not, and how to get what it needs.
     pub reason: String,
 }
@@ -33,7 +36,8 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// The pairs that a selection takes of these adapters. `missing` says why a route cannot run, whatever the adapter.
+    /// The pairs that a selection takes of these adapters. `missing` says why a route cannot run, whatever the adapter, `refused` why it
+    /// cannot on that one.
     ///
     /// # Errors
     /// [`Error::Adapter`] when an adapter that is named isn't there, or a route that is named needs one and there is none;
@@ -42,6 +46,7 @@ impl Pairs {
         selection: &Selection,
         all: &[AdapterInfo],
         missing: impl Fn(Route) -> Option<String>,
+        refused: impl Fn(Route, &AdapterInfo) -> Option<String>,
     ) -> Result<Self, Error> {
         let selectors: Vec<_> = selection
             .adapters
@@ -59,14 +64,27 @@ impl Pairs {
         }
         let named = |info: &AdapterInfo| selectors.iter().any(|selector| selector.matches(info));
         let (routes, without_tool) = usable(selection, missing)?;
-        let mut pairs = Vec::new();
+        let (mut pairs, mut refusals) = (Vec::new(), Vec::new());
         for info in all.iter().filter(|info| selectors.is_empty() || named(info)) {
-            let own: Vec<Route> = routes
+            let mut own: Vec<Route> = routes
                 .iter()
                 .copied()
                 .filter(|route| route.runs_on(info))
                 .collect();
-            if own.is_empty() && named(info) {
+            let fitting = own.len();
+            own.retain(|&route| match refused(route, info) {
+                None => true,
+                Some(reason) => {
+                    let adapter = Some(info.name.clone());
+                    refusals.push(NotRun {
+                        route,
+                        adapter,
+                        reason,
+                    });
+                    false
+                }
+            });
+            if fitting == 0 && named(info) {
                 return Err(Error::NoPair {
                     what: format!("adapter `{}` does not run {}", info.name, list(&routes)),
                     runs: list(
@@ -81,9 +99,10 @@ impl Pairs {
                 pairs.push((info.clone(), own));
             }
         }
-        let mut not_run = left_out(selection, &routes, &pairs, all)?;
+        let mut not_run = left_out(selection, &routes, &pairs, &refusals, all)?;
         not_run.extend(without_tool);
-        not_run.sort_by_key(|left_out| left_out.route);
+        not_run.extend(refusals);
+        not_run.sort_by_key(|left_out| (left_out.route, left_out.adapter.clone()));
         Ok(Self {
             adapters: pairs,
             not_run,
@@ -102,19 +121,34 @@ impl Pairs {
         self.adapters.iter().map(|(info, _)| info.clone()).collect()
     }
 
-    /// Opens every adapter.
+    /// Opens every adapter, once for each kind of machine that its routes need.
     ///
     /// # Errors
     /// [`Error::Adapter`] when one can't be opened.
     pub fn open(&self) -> Result<Machines, Error> {
-        let machine = |(info, routes): &(AdapterInfo, Vec<Route>)| {
-            let machine = open(&AdapterSelector::named(&info.name)).map_err(Error::Adapter)?;
-            Ok((machine, routes.clone()))
-        };
-        Ok(Machines(
-            self.adapters.iter().map(machine).collect::<Result<_, _>>()?,
-        ))
+        let mut machines = Vec::new();
+        for (info, routes) in &self.adapters {
+            for group in routes.chunk_by(|a, b| a.is_remote() == b.is_remote() && !a.is_remote()) {
+                machines.push((open(info, group[0])?, group.to_vec()));
+            }
+        }
+        Ok(Machines(machines))
     }
+}
+
+/// Opens what runs a route on an adapter.
+///
+/// # Errors
+/// [`Error::Adapter`] when it can't be opened.
+pub fn open(info: &AdapterInfo, route: Route) -> Result<Box<dyn Machine>, Error> {
+    let opened = match route {
+        Route::Opengl => opengl::open(info),
+        Route::Tint => tint::open(info),
+        Route::Wgsl | Route::Spirv | Route::Hlsl | Route::Glsl | Route::Embedded => {
+            bossage_embedded::open(&AdapterSelector::named(&info.name))
+        }
+    };
+    opened.map_err(Error::Adapter)
 }
 
 /// The routes of a selection that have what they need, and those that lack a compiler; none of the latter may be named.
@@ -126,7 +160,11 @@ fn usable(
     for route in selection.routes() {
         match missing(route) {
             None => routes.push(route),
-            Some(reason) if selection.routes.is_empty() => without.push(NotRun { route, reason }),
+            Some(reason) if selection.routes.is_empty() => without.push(NotRun {
+                route,
+                adapter: None,
+                reason,
+            }),
             Some(reason) => return Err(Error::NoTool { route, reason }),
         }
     }
@@ -138,12 +176,20 @@ fn left_out(
     selection: &Selection,
     routes: &[Route],
     pairs: &[(AdapterInfo, Vec<Route>)],
+    refusals: &[NotRun],
     all: &[AdapterInfo],
 ) -> Result<Vec<NotRun>, Error> {
     let mut not_run = Vec::new();
     for &route in routes {
         if pairs.iter().any(|(_, own)| own.contains(&route)) {
             continue;
+        }
+        if let Some(refusal) = refusals.iter().find(|one| one.route == route) {
+            if selection.routes.is_empty() {
+                continue;
+            }
+            let reason = refusal.reason.clone();
+            return Err(Error::NoTool { route, reason });
         }
         match (selection.routes.is_empty(), selection.adapters.is_empty()) {
             (false, true) => return Err(Error::Adapter(bossage_runner::Error::NoAdapter)),
@@ -157,6 +203,7 @@ fn left_out(
             (true, false) => {}
             (true, true) => not_run.push(NotRun {
                 route,
+                adapter: None,
                 reason: format!("no Vulkan adapter; {HOW_TO_GET_AN_ADAPTER}"),
             }),
         }
@@ -206,7 +253,7 @@ impl Selection {
     /// # Errors
     /// As [`Pairs::of`].
     pub fn pairs(&self) -> Result<Pairs, Error> {
-        Pairs::of(self, &adapters(), Route::missing)
+        Pairs::of(self, &adapters(), Route::missing, Route::refused_by)
     }
 }
 
@@ -235,13 +282,23 @@ mod tests {
         None
     }
 
+    /// Every adapter takes everything.
+    fn nobody(_: Route, _: &AdapterInfo) -> Option<String> {
+        None
+    }
+
+    /// Dawn does not take the adapter `one`.
+    fn dawn(route: Route, info: &AdapterInfo) -> Option<String> {
+        (route == Route::Tint && info.name == "one").then(|| "Dawn needs more".to_owned())
+    }
+
     /// DXC is not there.
     fn dxc(route: Route) -> Option<String> {
         (route == Route::Hlsl).then(|| "`dxc` was not found; get it".to_owned())
     }
 
     fn pairs(routes: &[Route], adapters: &[&str], all: &[AdapterInfo]) -> Vec<String> {
-        let pairs = Pairs::of(&selection(routes, adapters), all, nothing).unwrap();
+        let pairs = Pairs::of(&selection(routes, adapters), all, nothing, nobody).unwrap();
         let of = |(info, routes): &(AdapterInfo, Vec<Route>)| {
             routes
                 .iter()
@@ -261,10 +318,14 @@ mod tests {
             "spirv on one",
             "hlsl on one",
             "glsl on one",
+            "opengl on one",
+            "tint on one",
             "wgsl on two",
             "spirv on two",
             "hlsl on two",
             "glsl on two",
+            "opengl on two",
+            "tint on two",
             "embedded on embedded",
         ];
         assert_eq!(pairs(&[], &[], &all), expected);
@@ -276,7 +337,14 @@ mod tests {
         );
         assert_eq!(
             pairs(&[], &["two"], &all),
-            ["wgsl on two", "spirv on two", "hlsl on two", "glsl on two"]
+            [
+                "wgsl on two",
+                "spirv on two",
+                "hlsl on two",
+                "glsl on two",
+                "opengl on two",
+                "tint on two"
+            ]
         );
         assert_eq!(
             pairs(&[Route::Wgsl, Route::Embedded], &["one", "embedded"], &all),
@@ -288,13 +356,27 @@ mod tests {
     fn without_a_driver_embedded_runs_and_the_rest_is_said_to_be_left_out() {
         let all = [bossage_embedded::info()];
         assert_eq!(pairs(&[], &[], &all), ["embedded on embedded"]);
-        let left_out = Pairs::of(&selection(&[], &[]), &all, nothing).unwrap().not_run;
+        let left_out = Pairs::of(&selection(&[], &[]), &all, nothing, nobody)
+            .unwrap()
+            .not_run;
         let routes: Vec<Route> = left_out.iter().map(|one| one.route).collect();
-        assert_eq!(routes, [Route::Wgsl, Route::Spirv, Route::Hlsl, Route::Glsl]);
+        assert_eq!(
+            routes,
+            [
+                Route::Wgsl,
+                Route::Spirv,
+                Route::Hlsl,
+                Route::Glsl,
+                Route::Opengl,
+                Route::Tint
+            ]
+        );
         assert!(left_out[0].reason.contains("mesa-vulkan-drivers"));
         let with = [driver("one"), bossage_embedded::info()];
         assert_eq!(
-            Pairs::of(&selection(&[], &[]), &with, nothing).unwrap().not_run,
+            Pairs::of(&selection(&[], &[]), &with, nothing, nobody)
+                .unwrap()
+                .not_run,
             []
         );
     }
@@ -302,7 +384,7 @@ mod tests {
     #[test]
     fn a_route_without_its_compiler_is_left_out_with_the_reason_and_refused_by_name() {
         let all = [driver("one"), bossage_embedded::info()];
-        let pairs = Pairs::of(&selection(&[], &[]), &all, dxc).unwrap();
+        let pairs = Pairs::of(&selection(&[], &[]), &all, dxc, nobody).unwrap();
         let [left_out] = &pairs.not_run[..] else {
             panic!("{:?}", pairs.not_run)
         };
@@ -310,17 +392,36 @@ mod tests {
             (left_out.route, left_out.reason.as_str()),
             (Route::Hlsl, "`dxc` was not found; get it")
         );
-        assert_eq!(pairs.count(), 4);
-        let error = Pairs::of(&selection(&[Route::Hlsl], &[]), &all, dxc).unwrap_err();
+        assert_eq!(pairs.count(), 6);
+        let error = Pairs::of(&selection(&[Route::Hlsl], &[]), &all, dxc, nobody).unwrap_err();
         assert!(error.is_missing_environment() && matches!(error, Error::NoTool { .. }));
         assert!(error.to_string().contains("get it"), "{error}");
+    }
+
+    #[test]
+    fn an_adapter_that_refuses_a_route_is_left_out_of_it_alone_with_the_reason() {
+        let all = [driver("one"), driver("two"), bossage_embedded::info()];
+        let pairs = Pairs::of(&selection(&[Route::Tint], &[]), &all, nothing, dawn).unwrap();
+        assert_eq!(pairs.count(), 1);
+        let expected = NotRun {
+            route: Route::Tint,
+            adapter: Some("one".to_owned()),
+            reason: "Dawn needs more".to_owned(),
+        };
+        assert_eq!(pairs.not_run, [expected.clone()]);
+        // Where it was not named, the others of that adapter go on.
+        let pairs = Pairs::of(&selection(&[], &["one"]), &all, nothing, dawn).unwrap();
+        assert_eq!((pairs.count(), &pairs.not_run[..]), (5, &[expected][..]));
+        // Where it was named and nothing is left, that is the environment's lack.
+        let error = Pairs::of(&selection(&[Route::Tint], &["one"]), &all, nothing, dawn).unwrap_err();
+        assert!(error.is_missing_environment() && error.to_string().contains("Dawn needs more"));
     }
 
     #[test]
     fn what_is_named_and_does_not_go_together_is_a_wrong_call() {
         let all = [driver("one"), bossage_embedded::info()];
         let wrong = |routes: &[Route], adapters: &[&str]| {
-            Pairs::of(&selection(routes, adapters), &all, nothing).unwrap_err()
+            Pairs::of(&selection(routes, adapters), &all, nothing, nobody).unwrap_err()
         };
         let error = wrong(&[Route::Spirv], &["embedded"]);
         assert!(matches!(error, Error::NoPair { .. }) && !error.is_missing_environment());
@@ -334,6 +435,7 @@ mod tests {
             &selection(&[Route::Wgsl, Route::Embedded], &["embedded"]),
             &[bossage_embedded::info()],
             nothing,
+            nobody,
         );
         assert!(matches!(nobody, Err(Error::NoPair { .. })));
         // One of two routes, one of two adapters.
@@ -351,7 +453,7 @@ mod tests {
     fn what_is_named_and_not_there_is_an_error_of_the_environment() {
         let all = [bossage_embedded::info()];
         let wrong = |routes: &[Route], adapters: &[&str]| {
-            Pairs::of(&selection(routes, adapters), &all, nothing).unwrap_err()
+            Pairs::of(&selection(routes, adapters), &all, nothing, nobody).unwrap_err()
         };
         for error in [
             wrong(&[], &["lavapipe"]),

@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::generate::random;
 use crate::machines::Pairs;
 use crate::report::{CaseResult, Report};
-use crate::route::Route;
+use crate::route::{Fault, Route};
 use crate::suite::{self, Scope};
 
 /// What to run. The default is every case on every route and adapter, in the ordinary number of inputs.
@@ -31,6 +31,8 @@ pub struct Selection {
     pub seed: Option<u64>,
     /// Scene files to render besides.
     pub scenes: Vec<PathBuf>,
+    /// A fault in what one route emits: a negative control.
+    pub fault: Option<Fault>,
 }
 
 /// Told how far a run is.
@@ -127,7 +129,10 @@ pub fn run_cases(
     let pairs = selection.pairs()?;
     progress.start(cases.len() * pairs.count());
     let machines = pairs.open()?;
-    let benches = machines.benches(library);
+    let benches = machines.benches(library).into_iter();
+    let benches: Vec<_> = benches
+        .map(|bench| bench.planted(selection.fault.as_ref()))
+        .collect();
     let mut results = Vec::new();
     // Case by case, not bench by bench: what a case expects is computed once, and then dropped with the case.
     for case in cases {

@@ -1,6 +1,10 @@
 //! The code of a shader in the form in which it is handed over: the route it takes to the driver.
 
+use bossage_translate::Stage;
 use bossage_translate::manifest::{Binding, Entry};
+
+use crate::error::Error;
+use crate::layout;
 
 /// Shader code, by route.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -9,6 +13,8 @@ pub enum Code<'a> {
     Wgsl(&'a str),
     /// Route `spirv`: the bytes of an emitted module, passed to the driver unseen.
     Spirv(&'a [u8]),
+    /// Emitted GLSL, for machines that take it: a [`Device`](crate::Device) does not.
+    Glsl(&'a str),
 }
 
 impl Code<'_> {
@@ -18,6 +24,7 @@ impl Code<'_> {
         match self {
             Self::Wgsl(_) => "wgsl",
             Self::Spirv(_) => "spirv",
+            Self::Glsl(_) => "glsl",
         }
     }
 
@@ -25,7 +32,7 @@ impl Code<'_> {
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         match self {
-            Self::Wgsl(text) => text.as_bytes(),
+            Self::Wgsl(text) | Self::Glsl(text) => text.as_bytes(),
             Self::Spirv(bytes) => bytes,
         }
     }
@@ -49,6 +56,18 @@ impl<'a> Shader<'a> {
         self.entry.bindings.iter().find(|binding| binding.name == name)
     }
 
+    /// Checks that it is of that stage.
+    ///
+    /// # Errors
+    /// [`Error::Interface`].
+    pub fn expect(&self, stage: Stage) -> Result<(), Error> {
+        if self.entry.stage == stage {
+            return Ok(());
+        }
+        let problem = format!("it is a {} shader, not a {stage} shader", self.entry.stage);
+        Err(layout::misfit(self.entry, &self.entry.name, problem))
+    }
+
     /// What the entry point is called in this code. WGSL is either the source, with the source's name, or emitted, with the
     /// name that the manifest states for it.
     #[must_use]
@@ -60,7 +79,7 @@ impl<'a> Shader<'a> {
             .unwrap_or(&self.entry.name);
         match self.code {
             Code::Wgsl(text) if !defines(text, emitted) => &self.entry.name,
-            Code::Wgsl(_) | Code::Spirv(_) => emitted,
+            Code::Wgsl(_) | Code::Spirv(_) | Code::Glsl(_) => emitted,
         }
     }
 
@@ -69,7 +88,7 @@ impl<'a> Shader<'a> {
     pub fn place(&self, binding: &Binding) -> (u32, u32) {
         match (self.code, binding.spirv) {
             (Code::Spirv(_), Some(slot)) => (slot.set, slot.binding),
-            (Code::Spirv(_), None) | (Code::Wgsl(_), _) => (binding.group, binding.binding),
+            (Code::Spirv(_), None) | (Code::Wgsl(_) | Code::Glsl(_), _) => (binding.group, binding.binding),
         }
     }
 }

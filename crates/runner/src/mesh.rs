@@ -100,4 +100,16 @@ impl Mesh {
         }
         Ok(())
     }
+
+    /// What the vertex stage reads of it, by location. The mesh has been [validated](Self::validate).
+    ///
+    /// # Errors
+    /// [`Error::Interface`] for an input that is not of floats.
+    pub fn located(&self, entry: &Entry) -> Result<Vec<(u32, &Attribute)>, Error> {
+        let inputs = layout::located(entry, &entry.inputs)?;
+        let given = inputs
+            .iter()
+            .filter_map(|input| Some((input.location, self.attributes.get(&input.name)?)));
+        Ok(given.collect())
+    }
 }

@@ -1,9 +1,6 @@
 //! A render job on the device: pipelines, buffers and surfaces, ready to be drawn once or many times.
 
-use bossage_translate::Stage;
-
 use crate::binding::{self, Bound};
-use crate::code::Shader;
 use crate::device::Device;
 use crate::error::Error;
 use crate::layout::{self, Located};
@@ -90,9 +87,7 @@ impl RenderJob<'_> {
 
 impl Draw<'_> {
     fn prepare(&self, device: &Device, job: &RenderJob<'_>) -> Result<PreparedDraw, Error> {
-        expect_one_route(job.name, &self.vertex, &self.fragment)?;
-        expect_stage(&self.vertex, Stage::Vertex)?;
-        expect_stage(&self.fragment, Stage::Fragment)?;
+        self.validate(job)?;
         if self.blend != Blend::Replace && job.is_float(0) {
             device.require(
                 job.name,
@@ -100,7 +95,6 @@ impl Draw<'_> {
                 "the blending of 32-bit floats",
             )?;
         }
-        self.mesh.validate(job.name, self.vertex.entry)?;
         let inputs = layout::located(self.vertex.entry, &self.vertex.entry.inputs)?;
         let bound = binding::bind(device, job.name, &[&self.vertex, &self.fragment], &self.resources)?;
         let key = RenderKey {
@@ -126,48 +120,6 @@ impl Draw<'_> {
             Ok(upload_draw(device, job.name, self.mesh, &inputs, pipeline, bound))
         })
     }
-
-    /// For each target whether the fragment stage has an output of its location.
-    fn written(&self, targets: usize) -> Result<Vec<bool>, Error> {
-        let mut written = vec![false; targets];
-        for (output, location) in layout::outputs(self.fragment.entry)? {
-            let Some(target) = written.get_mut(location as usize) else {
-                let problem = format!("it goes to @location({location}), the job has {targets} targets");
-                return Err(layout::misfit(self.fragment.entry, &output.name, problem));
-            };
-            *target = true;
-        }
-        if self.blend != Blend::Replace && written.first() != Some(&true) {
-            let problem = "the draw is blended, but nothing goes to @location(0)".to_owned();
-            return Err(layout::misfit(
-                self.fragment.entry,
-                &self.fragment.entry.name,
-                problem,
-            ));
-        }
-        Ok(written)
-    }
-}
-
-/// wgpu checks each stage against the one before it, which it can't where only one of them is passed through.
-fn expect_one_route(job: &str, vertex: &Shader<'_>, fragment: &Shader<'_>) -> Result<(), Error> {
-    let (vertex, fragment) = (vertex.code.route(), fragment.code.route());
-    if vertex == fragment {
-        return Ok(());
-    }
-    Err(Error::MixedRoutes {
-        job: job.to_owned(),
-        vertex,
-        fragment,
-    })
-}
-
-fn expect_stage(shader: &Shader<'_>, stage: Stage) -> Result<(), Error> {
-    if shader.entry.stage == stage {
-        return Ok(());
-    }
-    let problem = format!("it is a {} shader, not a {stage} shader", shader.entry.stage);
-    Err(layout::misfit(shader.entry, &shader.entry.name, problem))
 }
 
 fn upload_draw(

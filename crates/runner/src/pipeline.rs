@@ -46,6 +46,10 @@ fn module(device: &Device, job: &str, shader: &Shader<'_>) -> Result<wgpu::Shade
             label: Some(job),
             source: wgpu::ShaderSource::Wgsl(text.into()),
         })),
+        Code::Glsl(_) => Err(Error::Validation {
+            job: job.to_owned(),
+            message: "Vulkan takes no GLSL: have it compiled first".to_owned(),
+        }),
         Code::Spirv(bytes) => {
             let module = crate::passthrough::read(job, bytes)?;
             let what = "the passing through of SPIR-V";

@@ -10,8 +10,11 @@
 //! A target that is cleared to the [sentinel](crate::SENTINEL) tells which pixels a draw wrote: see
 //! [`Picture::covered`]. No multisampling.
 
+use bossage_translate::Stage;
+
 use crate::code::Shader;
 use crate::error::Error;
+use crate::layout;
 use crate::machine::Machine;
 use crate::mesh::Mesh;
 use crate::picture::Picture;
@@ -98,5 +101,50 @@ impl RenderJob<'_> {
     /// When meshes, resources or targets don't fit the shaders, the machine refuses, or memory ends.
     pub fn run(&self, machine: &dyn Machine) -> Result<RenderOutput, Error> {
         machine.render(self)
+    }
+}
+
+impl Draw<'_> {
+    /// Checks what needs no device: both stages take one route and are what they should be, and the mesh has what is read of it.
+    ///
+    /// # Errors
+    /// [`Error::MixedRoutes`], [`Error::Interface`] or [`Error::Mesh`].
+    pub fn validate(&self, job: &RenderJob<'_>) -> Result<(), Error> {
+        // wgpu checks each stage against the one before it, which it can't where only one of them is passed through.
+        let (vertex, fragment) = (self.vertex.code.route(), self.fragment.code.route());
+        if vertex != fragment {
+            return Err(Error::MixedRoutes {
+                job: job.name.to_owned(),
+                vertex,
+                fragment,
+            });
+        }
+        self.vertex.expect(Stage::Vertex)?;
+        self.fragment.expect(Stage::Fragment)?;
+        self.mesh.validate(job.name, self.vertex.entry)
+    }
+
+    /// For each target whether the fragment stage has an output of its location.
+    ///
+    /// # Errors
+    /// [`Error::Interface`] for an output beyond the last target, and for a draw that is blended and writes nothing that is.
+    pub fn written(&self, targets: usize) -> Result<Vec<bool>, Error> {
+        let mut written = vec![false; targets];
+        for (output, location) in layout::outputs(self.fragment.entry)? {
+            let Some(target) = written.get_mut(location as usize) else {
+                let problem = format!("it goes to @location({location}), the job has {targets} targets");
+                return Err(layout::misfit(self.fragment.entry, &output.name, problem));
+            };
+            *target = true;
+        }
+        if self.blend != Blend::Replace && written.first() != Some(&true) {
+            let problem = "the draw is blended, but nothing goes to @location(0)".to_owned();
+            return Err(layout::misfit(
+                self.fragment.entry,
+                &self.fragment.entry.name,
+                problem,
+            ));
+        }
+        Ok(written)
     }
 }

@@ -54,7 +54,8 @@ impl TargetFormat {
     }
 
     /// Pixels of the bytes that the device gives back.
-    pub(crate) fn pixels(self, bytes: &[u8]) -> Vec<[f32; 4]> {
+    #[must_use]
+    pub fn pixels(self, bytes: &[u8]) -> Vec<[f32; 4]> {
         let float = |word: &[u8; 4]| f32::from_le_bytes(*word);
         match self {
             Self::Rgba32Float | Self::Rgba32Uint | Self::Rgba32Sint => bytes

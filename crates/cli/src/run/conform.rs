@@ -248,7 +248,8 @@ pub(crate) fn text(report: &Report) -> String {
     }
     for one in &report.environment.not_run {
         let reason = console::faint(format_args!("not run: {}", one.reason));
-        let _ = writeln!(text, "route {} {reason}", one.route);
+        let on = one.adapter.iter().map(|adapter| format!(" on {adapter}"));
+        let _ = writeln!(text, "route {}{} {reason}", one.route, on.collect::<String>());
     }
     for ((technique, form), cases) in report.by_technique() {
         let name = form.map_or_else(|| technique.clone(), |form| format!("{technique} ({form})"));

@@ -11,6 +11,10 @@ use crate::error::Result;
 use crate::machine;
 use crate::run::check;
 
+/// Why no machine has it: it is not for us to fetch.
+const FXC: &str = "fxc, which alone compiles shader models 5.0 and 5.1: it is a library of Windows, and packages that bring it state no terms \
+     under which others may use it; dxc checks the same text as shader model 6.0";
+
 pub(crate) fn run(args: &Doctor) -> Result<Verdict> {
     let adapters = bossage_embedded::adapters();
     let has_driver = adapters.iter().any(|info| !machine::is_embedded(info));
@@ -113,6 +117,7 @@ impl Report {
             console::heading("External compilers (check, demo)")
         ));
         text.push_str(&check::banner(&self.validators));
+        text.push_str(&format!("{}  {FXC}\n", console::faint("DISABLED")));
         let cache = self.cache.as_deref().unwrap_or("none: no home folder");
         text.push_str(&format!("\nTheir verdicts are kept in: {cache}\n"));
         text

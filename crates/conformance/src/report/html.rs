@@ -81,7 +81,10 @@ fn matrix(report: &Report) -> Markup {
                         th scope="col" { "technique" }
                         th scope="col" { "form" }
                         @for column in &matrix.columns {
-                            th scope="col" { (column.route) br; small { (column.adapter.as_deref().unwrap_or("not run")) } }
+                            th scope="col" { (column.route) br; small {
+                                (column.adapter.as_deref().unwrap_or("not run"))
+                                @if column.adapter.is_some() && column.not_run.is_some() { ", not run" }
+                            } }
                         }
                     } }
                     tbody { @for row in &matrix.rows { (matrix_row(row)) } }

@@ -1,6 +1,6 @@
 //! Techniques down, routes and adapters across: the whole run as one table, in which no cell is empty.
 //!
-//! A column is a route on an adapter, or a route that nothing here runs, which says why. A cell joins the cases of its technique and
+//! A column is a route on an adapter, or a route that nothing here or not that adapter runs, which says why. A cell joins the cases of its technique and
 //! form: the gravest verdict, and the output that came nearest to its bound or is farthest beyond it.
 
 use std::collections::BTreeSet;
@@ -27,6 +27,7 @@ impl Column {
     #[must_use]
     pub fn label(&self) -> String {
         match &self.adapter {
+            Some(adapter) if self.not_run.is_some() => format!("{} on {adapter}, not run", self.route),
             Some(adapter) => format!("{} on {adapter}", self.route),
             None => format!("{}, not run", self.route),
         }
@@ -109,7 +110,7 @@ fn columns(report: &Report) -> Vec<Column> {
     });
     let not_run = report.environment.not_run.iter().map(|one| Column {
         route: one.route,
-        adapter: None,
+        adapter: one.adapter.clone(),
         not_run: Some(one.reason.clone()),
     });
     let sorted: BTreeSet<Column> = ran.chain(not_run).collect();

@@ -62,6 +62,7 @@ pub(crate) fn sample() -> Report {
             adapters: vec![adapter],
             not_run: vec![NotRun {
                 route: Route::Glsl,
+                adapter: None,
                 reason: "get glslang".to_owned(),
             }],
             ..Environment::of(&[])

@@ -4,11 +4,19 @@
 use bossage_translate::external::{self, CheckState};
 use bossage_translate::{EmitOptions, Shader, Target, emit, manifest};
 
-use super::{Prepared, Text, tools};
+use super::{Fault, Prepared, Text, tools};
 
 /// Emits and compiles every entry point. First the language's own checkers must accept each file.
-pub(super) fn prepare(shader: Shader, target: Target, options: &EmitOptions) -> Result<Prepared, String> {
-    let emitted = emit(&shader, target, options).map_err(|diagnostic| diagnostic.to_string())?;
+pub(super) fn prepare(
+    shader: Shader,
+    target: Target,
+    options: &EmitOptions,
+    fault: Option<&Fault>,
+) -> Result<Prepared, String> {
+    let mut emitted = emit(&shader, target, options).map_err(|diagnostic| diagnostic.to_string())?;
+    if let Some(fault) = fault {
+        fault.plant(emitted.files.iter_mut().map(|file| &mut file.contents))?;
+    }
     let checks = external::check(&emitted, options, tools::all(), tools::cache());
     if let Some(refused) = checks.iter().find(|check| check.state == CheckState::Fail) {
         return Err(format!(

@@ -4,9 +4,13 @@
 use bossage_shaders::AssembledShader;
 use bossage_translate::Shader;
 
-use super::{Prepared, wgsl};
+use super::{Fault, Prepared, wgsl};
 
 /// The evaluator reads the text that route `wgsl` hands to wgpu.
-pub(super) fn prepare(shader: Shader, assembled: &AssembledShader) -> Prepared {
-    wgsl::prepare(shader, assembled)
+pub(super) fn prepare(
+    shader: Shader,
+    assembled: &AssembledShader,
+    fault: Option<&Fault>,
+) -> Result<Prepared, String> {
+    wgsl::prepare(shader, assembled, fault)
 }

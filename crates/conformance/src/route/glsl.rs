@@ -5,8 +5,8 @@
 
 use bossage_translate::{EmitOptions, Shader, Target};
 
-use super::{Prepared, compiled};
+use super::{Fault, Prepared, compiled};
 
-pub(super) fn prepare(shader: Shader) -> Result<Prepared, String> {
-    compiled::prepare(shader, Target::Glsl, &EmitOptions::default())
+pub(super) fn prepare(shader: Shader, fault: Option<&Fault>) -> Result<Prepared, String> {
+    compiled::prepare(shader, Target::Glsl, &EmitOptions::default(), fault)
 }

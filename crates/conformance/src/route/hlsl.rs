@@ -6,12 +6,12 @@
 
 use bossage_translate::{EmitOptions, Shader, ShaderModel, Target};
 
-use super::{Prepared, compiled};
+use super::{Fault, Prepared, compiled};
 
-pub(super) fn prepare(shader: Shader) -> Result<Prepared, String> {
+pub(super) fn prepare(shader: Shader, fault: Option<&Fault>) -> Result<Prepared, String> {
     let options = EmitOptions {
         hlsl: ShaderModel::V6_0,
         ..EmitOptions::default()
     };
-    compiled::prepare(shader, Target::Hlsl, &options)
+    compiled::prepare(shader, Target::Hlsl, &options, fault)
 }

@@ -5,9 +5,13 @@
 
 mod compiled;
 mod embedded;
+mod fault;
 mod glsl;
 mod hlsl;
+pub(crate) mod opengl;
+mod remote;
 mod spirv;
+pub(crate) mod tint;
 mod tools;
 mod wgsl;
 
@@ -26,6 +30,8 @@ use serde::Serialize;
 use crate::case::with_causes;
 use crate::error::Error;
 
+pub use fault::Fault;
+
 /// A way from an assembled shader to results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -38,13 +44,25 @@ pub enum Route {
     Hlsl,
     /// The emitted GLSL text, compiled by glslang as SPIR-V, which runs on Vulkan.
     Glsl,
+    /// The emitted GLSL text, compiled and run by OpenGL.
+    Opengl,
+    /// The emitted WGSL text, compiled by Tint and run by Dawn.
+    Tint,
     /// The text, evaluated by `bounds` in f32, without a driver.
     Embedded,
 }
 
 impl Route {
     /// All routes, in the order of the reports.
-    pub const ALL: [Self; 5] = [Self::Wgsl, Self::Spirv, Self::Hlsl, Self::Glsl, Self::Embedded];
+    pub const ALL: [Self; 7] = [
+        Self::Wgsl,
+        Self::Spirv,
+        Self::Hlsl,
+        Self::Glsl,
+        Self::Opengl,
+        Self::Tint,
+        Self::Embedded,
+    ];
 
     /// The name on the command line and in reports.
     #[must_use]
@@ -54,18 +72,26 @@ impl Route {
             Self::Spirv => "spirv",
             Self::Hlsl => "hlsl",
             Self::Glsl => "glsl",
+            Self::Opengl => "opengl",
+            Self::Tint => "tint",
             Self::Embedded => "embedded",
         }
     }
 
-    /// Whether that adapter runs this route.
+    /// Whether that adapter may run this route; it may still [refuse](Self::refused_by).
     #[must_use]
     pub fn runs_on(self, info: &AdapterInfo) -> bool {
         let is_embedded = info.name == bossage_embedded::NAME;
         match self {
-            Self::Wgsl | Self::Spirv | Self::Hlsl | Self::Glsl => !is_embedded,
+            Self::Wgsl | Self::Spirv | Self::Hlsl | Self::Glsl | Self::Opengl | Self::Tint => !is_embedded,
             Self::Embedded => is_embedded,
         }
+    }
+
+    /// Whether it runs in a process of its own, with a machine of its own.
+    #[must_use]
+    pub const fn is_remote(self) -> bool {
+        matches!(self, Self::Opengl | Self::Tint)
     }
 
     /// The compiler of others that this route needs.
@@ -75,13 +101,28 @@ impl Route {
             Self::Wgsl | Self::Spirv | Self::Embedded => None,
             Self::Hlsl => Some("dxc"),
             Self::Glsl => Some("glslangValidator"),
+            Self::Opengl => Some(opengl::TOOL),
+            Self::Tint => Some(tint::TOOL),
         }
     }
 
     /// Why this route cannot run on this computer, whatever the adapter: its compiler is missing. With the way to get it.
     #[must_use]
     pub fn missing(self) -> Option<String> {
-        self.tool().and_then(tools::missing)
+        match self {
+            Self::Opengl => opengl::missing(),
+            _ => self.tool().and_then(tools::missing),
+        }
+    }
+
+    /// Why that adapter does not run this route after all; `None` where it does.
+    #[must_use]
+    pub fn refused_by(self, info: &AdapterInfo) -> Option<String> {
+        match self {
+            Self::Opengl => opengl::refuses(info),
+            Self::Tint => tint::refuses(info),
+            Self::Wgsl | Self::Spirv | Self::Hlsl | Self::Glsl | Self::Embedded => None,
+        }
     }
 
     /// Makes what this route hands to the driver.
@@ -89,14 +130,29 @@ impl Route {
     /// # Errors
     /// What the translator says, as it shows it to people.
     pub fn prepare(self, assembled: &AssembledShader) -> Result<Prepared, String> {
+        self.prepare_with(assembled, None)
+    }
+
+    /// As [`Self::prepare`], with a fault in what is emitted, if it is one of this route.
+    ///
+    /// # Errors
+    /// As [`Self::prepare`], and when the fault finds no place.
+    pub fn prepare_with(
+        self,
+        assembled: &AssembledShader,
+        fault: Option<&Fault>,
+    ) -> Result<Prepared, String> {
+        let fault = fault.filter(|fault| fault.route == self);
         let shader = bossage_translate::Shader::parse(&assembled.name, &Source::Wgsl(assembled.wgsl.clone()))
             .map_err(|diagnostic| diagnostic.to_string())?;
         match self {
-            Self::Wgsl => Ok(wgsl::prepare(shader, assembled)),
-            Self::Spirv => spirv::prepare(shader),
-            Self::Hlsl => hlsl::prepare(shader),
-            Self::Glsl => glsl::prepare(shader),
-            Self::Embedded => Ok(embedded::prepare(shader, assembled)),
+            Self::Wgsl => wgsl::prepare(shader, assembled, fault),
+            Self::Spirv => spirv::prepare(shader, fault),
+            Self::Hlsl => hlsl::prepare(shader, fault),
+            Self::Glsl => glsl::prepare(shader, fault),
+            Self::Opengl => opengl::prepare(shader, fault),
+            Self::Tint => tint::prepare(shader, fault),
+            Self::Embedded => embedded::prepare(shader, assembled, fault),
         }
     }
 }
@@ -135,6 +191,7 @@ pub struct Prepared {
 enum Text {
     Wgsl(String),
     Spirv(Vec<u8>),
+    Glsl(String),
 }
 
 impl Prepared {
@@ -206,6 +263,7 @@ impl Prepared {
         let code = match text {
             Text::Wgsl(text) => Code::Wgsl(text),
             Text::Spirv(bytes) => Code::Spirv(bytes),
+            Text::Glsl(text) => Code::Glsl(text),
         };
         Ok(Shader {
             code,
@@ -226,7 +284,7 @@ mod tests {
         let message = "spriv".parse::<Route>().unwrap_err().to_string();
         assert_eq!(
             message,
-            "no route is called `spriv`; there are: wgsl, spirv, hlsl, glsl, embedded"
+            "no route is called `spriv`; there are: wgsl, spirv, hlsl, glsl, opengl, tint, embedded"
         );
     }
 }

@@ -2,11 +2,14 @@
 
 use bossage_translate::{Contents, EmitOptions, Shader, Source, Target, emit, manifest};
 
-use super::{Prepared, Text};
+use super::{Fault, Prepared, Text};
 
-pub(super) fn prepare(shader: Shader) -> Result<Prepared, String> {
+pub(super) fn prepare(shader: Shader, fault: Option<&Fault>) -> Result<Prepared, String> {
     let options = EmitOptions::default();
-    let emitted = emit(&shader, Target::Spirv, &options).map_err(|diagnostic| diagnostic.to_string())?;
+    let mut emitted = emit(&shader, Target::Spirv, &options).map_err(|diagnostic| diagnostic.to_string())?;
+    if let Some(fault) = fault {
+        fault.plant(emitted.files.iter_mut().map(|file| &mut file.contents))?;
+    }
     let code = emitted.files.iter().map(|file| match &file.contents {
         Contents::Binary(bytes) => Ok((file.entry.clone(), Text::Spirv(bytes.clone()))),
         Contents::Text(_) => Err(format!("{} is text where SPIR-V is expected", file.file_name)),

@@ -21,6 +21,12 @@ pub(super) fn missing(tool: &str) -> Option<String> {
     }
 }
 
+/// Where a tool is that can be used.
+pub(super) fn path(tool: &str) -> Option<&'static Path> {
+    let found = all().iter().find(|validator| validator.tool == tool)?;
+    found.path.as_deref().filter(|_| found.state == State::Enabled)
+}
+
 /// Where what tools made is kept between runs.
 pub(super) fn cache() -> Option<&'static Path> {
     static FOLDER: OnceLock<Option<std::path::PathBuf>> = OnceLock::new();

@@ -16,6 +16,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Execution, Stop, picture};
 use crate::case::with_causes;
+use crate::error::Error;
+use crate::machines;
 use crate::route::{Prepared, Route};
 
 /// Bytes of address space that a process which runs a user's shader may take: a driver that compiles with LLVM needs two or three.
@@ -266,7 +268,7 @@ fn run(request: &Request, say: &mut dyn FnMut(Said)) -> Result<(), Stop> {
     let generated = companion
         .map(|companion| prepare(format!("{} (generated)", request.name), &companion.wgsl))
         .transpose()?;
-    let machine = bossage_embedded::open(&AdapterSelector::named(&request.adapter)).map_err(|e| stop(&e))?;
+    let machine = open(request, route)?;
     say(Said::Ready);
     for job in &request.jobs {
         let left = match (companion, &generated) {
@@ -278,6 +280,22 @@ fn run(request: &Request, say: &mut dyn FnMut(Said)) -> Result<(), Stop> {
         say(Said::Done(left));
     }
     Ok(())
+}
+
+/// What runs a route on the adapter of that name.
+fn open(request: &Request, route: Route) -> Result<Box<dyn Machine>, Stop> {
+    let all = bossage_embedded::adapters();
+    let selector = AdapterSelector::named(&request.adapter);
+    let info = all.iter().find(|info| selector.matches(info)).ok_or_else(|| {
+        stop(&bossage_runner::Error::NoSuchAdapter {
+            wanted: request.adapter.clone(),
+            found: all.iter().map(|info| info.name.clone()).collect(),
+        })
+    })?;
+    machines::open(info, route).map_err(|error| match error {
+        Error::Adapter(error) => stop(&error),
+        other => Stop::Failed(other.to_string()),
+    })
 }
 
 impl Job {

@@ -1,12 +1,15 @@
 //! Negative controls: a library with one fault put into it must fail, and exactly the faults below are put into it.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
+use bossage_conformance::report::matrix::{Cell, Column, Matrix};
+use bossage_conformance::route::Fault;
 use bossage_conformance::suite::scene::files_in;
-use bossage_conformance::{Route, Selection};
+use bossage_conformance::{CaseResult, Route, Selection, Verdict};
 use bossage_shaders::Library;
 
-use crate::support::{report, root};
+use crate::support::{listed, report, root};
 
 /// One fault: in `file`, `from` becomes `to`; the cases of `filter` must notice.
 struct Mutant {
@@ -488,5 +491,56 @@ fn the_same_cases_pass_without_a_fault() {
             .map(|case| format!("{}: {:?}", case.id, case.reason))
             .collect();
         assert!(failed.is_empty(), "{}: {failed:?}", mutant.what);
+    }
+}
+
+/// Each route with a fault in what it emits and nowhere else: the least view angle off by a per cent, by the name that the language gives
+/// to the number.
+const PLANTED: [(Route, &str, &str); 7] = [
+    (Route::Wgsl, "0.05", "0.0505"),
+    (Route::Spirv, "0.05", "0.0505"),
+    (Route::Hlsl, "0.05", "0.0505"),
+    (Route::Glsl, "0.05", "0.0505"),
+    (Route::Opengl, "0.05", "0.0505"),
+    (Route::Tint, "0.05f", "0.0505f"),
+    (Route::Embedded, "0.05", "0.0505"),
+];
+
+#[test]
+fn a_fault_in_one_routes_output_is_caught_on_that_route_alone() {
+    let library = Library::embedded().expect("the embedded library is whole");
+    for (route, from, to) in PLANTED {
+        let fault = Fault {
+            route,
+            from: from.to_owned(),
+            to: to.to_owned(),
+        };
+        let selection = Selection {
+            filter: Some("parallax_offset/hardened/random".to_owned()),
+            fault: Some(fault),
+            ..Selection::default()
+        };
+        let Some(report) = report("a fault in one route", &selection, &library) else {
+            return;
+        };
+        let ran = report.cases.iter().any(|case| case.route == route);
+        let refused = |case: &&CaseResult| case.verdict == Verdict::Fail && case.worst.is_some();
+        let caught: BTreeSet<Route> = report
+            .cases
+            .iter()
+            .filter(refused)
+            .map(|case| case.route)
+            .collect();
+        let expected: BTreeSet<Route> = ran.then_some(route).into_iter().collect();
+        assert_eq!(caught, expected, "{}", listed(&report, Verdict::Fail));
+        let matrix = Matrix::of(&report);
+        let failed =
+            |(column, cell): &(&Column, &Cell)| (cell.verdict == Verdict::Fail).then_some(column.route);
+        let cells = matrix
+            .rows
+            .iter()
+            .flat_map(|row| matrix.columns.iter().zip(&row.cells));
+        let named: BTreeSet<Route> = cells.filter_map(|cell| failed(&cell)).collect();
+        assert_eq!(named, expected);
     }
 }

@@ -21,6 +21,14 @@ fn variable(name: &str) -> Option<PathBuf> {
     given.filter(|path| path.is_absolute())
 }
 
+/// The first program of that name in [`tool_folders`].
+#[must_use]
+pub fn find_program(name: &str) -> Option<PathBuf> {
+    let program = format!("{name}{}", std::env::consts::EXE_SUFFIX);
+    let mut all = tool_folders().into_iter().map(|folder| folder.join(&program));
+    all.find(|path| path.is_file())
+}
+
 /// Where programs are looked for, the first hit wins: the folders of `PATH`, then those that `./x setup --full` fills, which are in
 /// the cache folder unless `BOSSAGE_TOOLS` names another. So what users have themselves comes before what was fetched.
 #[must_use]

@@ -20,6 +20,7 @@ use crate::target::Target;
 
 mod cache;
 mod compile;
+mod dawn;
 mod dxc;
 mod folders;
 mod formats;
@@ -31,8 +32,8 @@ mod run;
 mod spirv_val;
 
 pub use compile::{Compiled, to_spirv};
-pub use folders::{cache_folder, tool_folders};
-pub use run::{Limits, Outcome, run};
+pub use folders::{cache_folder, find_program, tool_folders};
+pub use run::{Limits, Outcome, end, run, start};
 
 /// What a tool may take for one file. Every tool answers within milliseconds and a hundred megabytes: this ends a hang.
 pub const LIMITS: Limits = Limits {
@@ -42,7 +43,7 @@ pub const LIMITS: Limits = Limits {
 };
 
 /// Every tool that we know how to run.
-const TOOLS: [&Tool; 3] = [&spirv_val::TOOL, &glslang::TOOL, &dxc::TOOL];
+const TOOLS: [&Tool; 4] = [&spirv_val::TOOL, &glslang::TOOL, &dxc::TOOL, &dawn::TOOL];
 
 /// What is known about a tool.
 struct Tool {
@@ -159,7 +160,11 @@ fn detect_tool(tool: &Tool, folders: &[PathBuf]) -> Validator {
             state: State::Enabled,
             reason: None,
         },
-        None => disabled(tool, Some(path), format!("`{program}` does not say its version")),
+        None => disabled(
+            tool,
+            Some(path),
+            format!("`{program}` does not say its version; {}", tool.how_to_get),
+        ),
     }
 }
 

@@ -57,9 +57,13 @@ pub fn run(program: &Path, arguments: &[String], input: &[u8], limits: &Limits) 
     })
 }
 
-/// Starts it in a process group of its own, under a shell that sets the limits and then becomes the program.
+/// Starts it in a process group of its own, under a shell that sets the limit on memory and then becomes the program. All three of its
+/// standard streams are pipes. Time and what it says are for the caller to watch, who has to [`end`] it.
+///
+/// # Errors
+/// When it is not there or cannot be started.
 #[cfg(unix)]
-fn start(program: &Path, arguments: &[String], limits: &Limits) -> std::io::Result<Child> {
+pub fn start(program: &Path, arguments: &[String], limits: &Limits) -> std::io::Result<Child> {
     use std::os::unix::process::CommandExt;
 
     // The shell would say in words of its own that there is no such program.
@@ -75,8 +79,13 @@ fn start(program: &Path, arguments: &[String], limits: &Limits) -> std::io::Resu
     )
 }
 
+/// Starts it, without a limit on memory. All three of its standard streams are pipes. Time and what it says are for the caller to
+/// watch, who has to [`end`] it.
+///
+/// # Errors
+/// When it is not there or cannot be started.
 #[cfg(not(unix))]
-fn start(program: &Path, arguments: &[String], _: &Limits) -> std::io::Result<Child> {
+pub fn start(program: &Path, arguments: &[String], _: &Limits) -> std::io::Result<Child> {
     piped(Command::new(program).args(arguments))
 }
 
@@ -89,7 +98,7 @@ fn piped(command: &mut Command) -> std::io::Result<Child> {
 }
 
 /// Ends a program and all that it started. Either fails only if it has just ended, which is as good.
-fn end(child: &mut Child) {
+pub fn end(child: &mut Child) {
     #[cfg(unix)]
     let _ = Command::new("/bin/sh")
         .args(["-c", "kill -s KILL -- \"-$1\"", "sh", &child.id().to_string()])

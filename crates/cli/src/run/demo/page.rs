@@ -58,7 +58,7 @@ fn summary(story: &Story) -> Markup {
     html! {
         p.verdict.(if story.is_fine() { "pass" } else { "fail" }) { (verdict) }
         @for one in &story.executed.conformance.environment.not_run {
-            p.verdict.skip { "Route " code { (one.route) } " is left out: " (one.reason) "." }
+            p.verdict.skip { "Route " code { (one.route) } @if let Some(adapter) = &one.adapter { " on " (adapter) } " is left out: " (one.reason) "." }
         }
         @if machine::is_embedded(&story.executed.machine) {
             p.verdict.skip { "There is no driver: the times below are those of our own evaluator, and say nothing about a GPU." }

@@ -1,0 +1,22 @@
+//! The machine whose compiler is Tint: what is asked of every machine, and what happens when its process misbehaves.
+//!
+//! Without Dawn, or without an adapter that it takes, the tests that need them are skipped, each saying so with a running number; where
+//! `BOSSAGE_REQUIRE` lists `dawn`, they fail instead.
+
+#[path = "../../../runner/tests/adapter/blending.rs"]
+mod blending;
+mod compiled;
+#[path = "../../../runner/tests/adapter/compute.rs"]
+mod compute;
+#[path = "../../../runner/tests/adapter/cubes.rs"]
+mod cubes;
+#[path = "../../../runner/tests/adapter/flat.rs"]
+mod flat;
+#[cfg(unix)]
+mod misbehaving;
+mod refused;
+#[path = "../../../runner/tests/adapter/render.rs"]
+mod render;
+mod support;
+#[path = "../../../runner/tests/adapter/texels.rs"]
+mod texels;
