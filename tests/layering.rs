@@ -22,6 +22,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("scene", &["assets", "shaders", "reference"]),
     ("runner", &["translate"]),
     ("embedded", &["translate", "bounds", "runner"]),
+    ("metal", &["translate", "bounds", "runner", "embedded"]),
     ("conformance", &[ABOVE]),
     ("study", &[ABOVE]),
     ("cli", &[ABOVE]),

@@ -1,18 +1,39 @@
 //! Which machine runs which routes.
 //!
-//! Route `embedded` is what the adapter `embedded` does, the others go to drivers: a pair that makes no sense is not in the list. What
+//! Route `embedded` is what the adapter `embedded` does, route `msl` what `clang` does, the others go to drivers: a pair that makes no sense is not in the list. What
 //! a selection names must be in some pair, or the call is wrong; a route that nobody named and that has no adapter, or whose compiler
 //! is missing, is left out, and the report says so.
 
-use bossage_embedded::{adapters, open};
+use bossage_metal::Metal;
 use bossage_runner::{AdapterInfo, AdapterSelector, HOW_TO_GET_AN_ADAPTER, Machine};
 use bossage_shaders::Library;
 use serde::Serialize;
 
 use crate::bench::Bench;
 use crate::error::Error;
-use crate::route::Route;
+use crate::route::{Route, tools};
 use crate::run::Selection;
+
+/// Every adapter of this machine: those that drivers bring, `embedded`, and `clang` where that is.
+#[must_use]
+pub fn adapters() -> Vec<AdapterInfo> {
+    let mut all = bossage_embedded::adapters();
+    all.extend(bossage_metal::info(tools::all()));
+    all
+}
+
+/// Opens an adapter of that list.
+///
+/// # Errors
+/// As [`bossage_embedded::open`].
+pub fn open(selector: &AdapterSelector) -> Result<Box<dyn Machine>, bossage_runner::Error> {
+    let is_clang =
+        |info: &AdapterInfo| matches!(selector, AdapterSelector::Named(text) if *text == info.name);
+    match bossage_metal::info(tools::all()) {
+        Some(info) if is_clang(&info) => Ok(Box::new(Metal::new(tools::all(), tools::cache())?)),
+        _ => bossage_embedded::open(selector),
+    }
+}
 
 /// A route that no adapter of this machine runs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -222,6 +243,13 @@ mod tests {
         }
     }
 
+    fn clang() -> AdapterInfo {
+        AdapterInfo {
+            name: bossage_metal::NAME.to_owned(),
+            ..bossage_embedded::info()
+        }
+    }
+
     fn selection(routes: &[Route], adapters: &[&str]) -> Selection {
         Selection {
             routes: routes.to_vec(),
@@ -255,7 +283,7 @@ mod tests {
 
     #[test]
     fn drivers_run_the_emitted_code_and_embedded_runs_itself() {
-        let all = [driver("one"), driver("two"), bossage_embedded::info()];
+        let all = [driver("one"), driver("two"), bossage_embedded::info(), clang()];
         let expected = [
             "wgsl on one",
             "spirv on one",
@@ -266,10 +294,12 @@ mod tests {
             "hlsl on two",
             "glsl on two",
             "embedded on embedded",
+            "msl on clang",
         ];
         assert_eq!(pairs(&[], &[], &all), expected);
         assert_eq!(pairs(&[Route::Embedded], &[], &all), ["embedded on embedded"]);
         assert_eq!(pairs(&[], &["embedded"], &all), ["embedded on embedded"]);
+        assert_eq!(pairs(&[Route::Msl], &[], &all), ["msl on clang"]);
         assert_eq!(
             pairs(&[Route::Spirv], &[], &all),
             ["spirv on one", "spirv on two"]
@@ -286,13 +316,13 @@ mod tests {
 
     #[test]
     fn without_a_driver_embedded_runs_and_the_rest_is_said_to_be_left_out() {
-        let all = [bossage_embedded::info()];
-        assert_eq!(pairs(&[], &[], &all), ["embedded on embedded"]);
+        let all = [bossage_embedded::info(), clang()];
+        assert_eq!(pairs(&[], &[], &all), ["embedded on embedded", "msl on clang"]);
         let left_out = Pairs::of(&selection(&[], &[]), &all, nothing).unwrap().not_run;
         let routes: Vec<Route> = left_out.iter().map(|one| one.route).collect();
         assert_eq!(routes, [Route::Wgsl, Route::Spirv, Route::Hlsl, Route::Glsl]);
         assert!(left_out[0].reason.contains("mesa-vulkan-drivers"));
-        let with = [driver("one"), bossage_embedded::info()];
+        let with = [driver("one"), bossage_embedded::info(), clang()];
         assert_eq!(
             Pairs::of(&selection(&[], &[]), &with, nothing).unwrap().not_run,
             []
@@ -301,7 +331,7 @@ mod tests {
 
     #[test]
     fn a_route_without_its_compiler_is_left_out_with_the_reason_and_refused_by_name() {
-        let all = [driver("one"), bossage_embedded::info()];
+        let all = [driver("one"), bossage_embedded::info(), clang()];
         let pairs = Pairs::of(&selection(&[], &[]), &all, dxc).unwrap();
         let [left_out] = &pairs.not_run[..] else {
             panic!("{:?}", pairs.not_run)
@@ -310,7 +340,7 @@ mod tests {
             (left_out.route, left_out.reason.as_str()),
             (Route::Hlsl, "`dxc` was not found; get it")
         );
-        assert_eq!(pairs.count(), 4);
+        assert_eq!(pairs.count(), 5);
         let error = Pairs::of(&selection(&[Route::Hlsl], &[]), &all, dxc).unwrap_err();
         assert!(error.is_missing_environment() && matches!(error, Error::NoTool { .. }));
         assert!(error.to_string().contains("get it"), "{error}");

@@ -9,6 +9,8 @@ pub enum Code<'a> {
     Wgsl(&'a str),
     /// Route `spirv`: the bytes of an emitted module, passed to the driver unseen.
     Spirv(&'a [u8]),
+    /// Route `msl`: the emitted text of one entry point. No driver here takes it; a machine that compiles it does.
+    Msl(&'a str),
 }
 
 impl Code<'_> {
@@ -18,6 +20,7 @@ impl Code<'_> {
         match self {
             Self::Wgsl(_) => "wgsl",
             Self::Spirv(_) => "spirv",
+            Self::Msl(_) => "msl",
         }
     }
 
@@ -25,7 +28,7 @@ impl Code<'_> {
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         match self {
-            Self::Wgsl(text) => text.as_bytes(),
+            Self::Wgsl(text) | Self::Msl(text) => text.as_bytes(),
             Self::Spirv(bytes) => bytes,
         }
     }
@@ -60,7 +63,7 @@ impl<'a> Shader<'a> {
             .unwrap_or(&self.entry.name);
         match self.code {
             Code::Wgsl(text) if !defines(text, emitted) => &self.entry.name,
-            Code::Wgsl(_) | Code::Spirv(_) => emitted,
+            Code::Wgsl(_) | Code::Spirv(_) | Code::Msl(_) => emitted,
         }
     }
 
@@ -69,7 +72,7 @@ impl<'a> Shader<'a> {
     pub fn place(&self, binding: &Binding) -> (u32, u32) {
         match (self.code, binding.spirv) {
             (Code::Spirv(_), Some(slot)) => (slot.set, slot.binding),
-            (Code::Spirv(_), None) | (Code::Wgsl(_), _) => (binding.group, binding.binding),
+            (Code::Spirv(_), None) | (Code::Wgsl(_) | Code::Msl(_), _) => (binding.group, binding.binding),
         }
     }
 }

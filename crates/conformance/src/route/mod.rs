@@ -7,8 +7,9 @@ mod compiled;
 mod embedded;
 mod glsl;
 mod hlsl;
+mod msl;
 mod spirv;
-mod tools;
+pub(crate) mod tools;
 mod wgsl;
 
 use std::collections::BTreeMap;
@@ -38,13 +39,22 @@ pub enum Route {
     Hlsl,
     /// The emitted GLSL text, compiled by glslang as SPIR-V, which runs on Vulkan.
     Glsl,
+    /// The emitted MSL text, compiled by clang as native code, which runs in processes of its own.
+    Msl,
     /// The text, evaluated by `bounds` in f32, without a driver.
     Embedded,
 }
 
 impl Route {
     /// All routes, in the order of the reports.
-    pub const ALL: [Self; 5] = [Self::Wgsl, Self::Spirv, Self::Hlsl, Self::Glsl, Self::Embedded];
+    pub const ALL: [Self; 6] = [
+        Self::Wgsl,
+        Self::Spirv,
+        Self::Hlsl,
+        Self::Glsl,
+        Self::Msl,
+        Self::Embedded,
+    ];
 
     /// The name on the command line and in reports.
     #[must_use]
@@ -54,6 +64,7 @@ impl Route {
             Self::Spirv => "spirv",
             Self::Hlsl => "hlsl",
             Self::Glsl => "glsl",
+            Self::Msl => "msl",
             Self::Embedded => "embedded",
         }
     }
@@ -62,8 +73,10 @@ impl Route {
     #[must_use]
     pub fn runs_on(self, info: &AdapterInfo) -> bool {
         let is_embedded = info.name == bossage_embedded::NAME;
+        let is_clang = info.name == bossage_metal::NAME;
         match self {
-            Self::Wgsl | Self::Spirv | Self::Hlsl | Self::Glsl => !is_embedded,
+            Self::Wgsl | Self::Spirv | Self::Hlsl | Self::Glsl => !is_embedded && !is_clang,
+            Self::Msl => is_clang,
             Self::Embedded => is_embedded,
         }
     }
@@ -75,6 +88,7 @@ impl Route {
             Self::Wgsl | Self::Spirv | Self::Embedded => None,
             Self::Hlsl => Some("dxc"),
             Self::Glsl => Some("glslangValidator"),
+            Self::Msl => Some("clang"),
         }
     }
 
@@ -96,6 +110,7 @@ impl Route {
             Self::Spirv => spirv::prepare(shader),
             Self::Hlsl => hlsl::prepare(shader),
             Self::Glsl => glsl::prepare(shader),
+            Self::Msl => msl::prepare(shader),
             Self::Embedded => Ok(embedded::prepare(shader, assembled)),
         }
     }
@@ -135,6 +150,7 @@ pub struct Prepared {
 enum Text {
     Wgsl(String),
     Spirv(Vec<u8>),
+    Msl(String),
 }
 
 impl Prepared {
@@ -206,6 +222,7 @@ impl Prepared {
         let code = match text {
             Text::Wgsl(text) => Code::Wgsl(text),
             Text::Spirv(bytes) => Code::Spirv(bytes),
+            Text::Msl(text) => Code::Msl(text),
         };
         Ok(Shader {
             code,
@@ -226,7 +243,7 @@ mod tests {
         let message = "spriv".parse::<Route>().unwrap_err().to_string();
         assert_eq!(
             message,
-            "no route is called `spriv`; there are: wgsl, spirv, hlsl, glsl, embedded"
+            "no route is called `spriv`; there are: wgsl, spirv, hlsl, glsl, msl, embedded"
         );
     }
 }

@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Execution, Stop, picture};
 use crate::case::with_causes;
+use crate::machines;
 use crate::route::{Prepared, Route};
 
 /// Bytes of address space that a process which runs a user's shader may take: a driver that compiles with LLVM needs two or three.
@@ -266,7 +267,7 @@ fn run(request: &Request, say: &mut dyn FnMut(Said)) -> Result<(), Stop> {
     let generated = companion
         .map(|companion| prepare(format!("{} (generated)", request.name), &companion.wgsl))
         .transpose()?;
-    let machine = bossage_embedded::open(&AdapterSelector::named(&request.adapter)).map_err(|e| stop(&e))?;
+    let machine = machines::open(&AdapterSelector::named(&request.adapter)).map_err(|e| stop(&e))?;
     say(Said::Ready);
     for job in &request.jobs {
         let left = match (companion, &generated) {
