@@ -23,6 +23,7 @@ const MAY_IMPORT: &[(&str, &[&str])] = &[
     ("runner", &["translate"]),
     ("embedded", &["translate", "bounds", "runner"]),
     ("remote", &["translate", "runner"]),
+    ("metal", &["translate", "bounds", "runner", "embedded"]),
     ("conformance", &[ABOVE]),
     ("study", &[ABOVE]),
     ("cli", &[ABOVE]),

@@ -67,7 +67,7 @@ impl Place {
             std::os::unix::fs::symlink(found.unwrap(), place.path("bin").join(program)).unwrap();
         }
         // What `setup` without --full looks for counts as there.
-        for checker in ["spirv-val", "glslangValidator", "chromium", "c++"] {
+        for checker in ["spirv-val", "glslangValidator", "chromium", "c++", "clang"] {
             place.program(checker, "exit 0");
         }
         place
@@ -401,6 +401,16 @@ fn what_only_tests_need_is_installed_for_them_and_named_where_it_is_missing() {
     let said = place.setup();
     assert!(said.contains("setup: installing chromium\n"), "{said}");
     let disabled = "DISABLED the test of the report page in a browser (chromium is missing)";
+    assert!(said.contains(disabled), "{said}");
+}
+
+#[test]
+fn clang_is_installed_with_the_rest_and_named_where_it_is_missing() {
+    let place = Place::new().with_debian("1.0").with_lock("1.0", None);
+    fs::remove_file(place.path("bin/clang")).unwrap();
+    let said = place.setup();
+    assert!(said.contains("setup: installing clang\n"), "{said}");
+    let disabled = "DISABLED route msl and the external check of MSL (clang is missing)";
     assert!(said.contains(disabled), "{said}");
 }
 

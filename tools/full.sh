@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# What `./x setup --full` gets besides system packages; sourced by `./x`.
+# What `./x setup --full` gets besides system packages (clang is one, see `full_things` in `./x`); sourced by `./x`.
 #
 # Packages are pinned in `tools/lock.tsv` (source, version, hash, licence), fetched by the ordinary client of their source, and
 # unpacked into the project's own cache, nothing else is touched: `${BOSSAGE_TOOLS:-${XDG_CACHE_HOME:-~/.cache}/bossage/tools}/TOOL`.

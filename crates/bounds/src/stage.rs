@@ -76,6 +76,16 @@ impl<D: Domain> StageInputs<D> {
         }
     }
 
+    /// How many invocations.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The values of a slot.
+    pub fn column(&self, slot: Slot) -> Option<&Column<D>> {
+        self.columns.get(&slot)
+    }
+
     /// Each fragment by itself, its neighbours in the quad unknown: its derivatives, and a level of detail that follows from them,
     /// are indeterminate (zero in point domains).
     ///

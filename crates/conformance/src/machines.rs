@@ -1,18 +1,27 @@
 //! Which machine runs which routes.
 //!
-//! Route `embedded` is what the adapter `embedded` does, the others go to drivers, `tint` and `opengl` through processes of their own: a pair that makes no sense is
-//! not in the list. What a selection names must be in some pair, or the call is wrong; a route that nobody named and that has no
-//! adapter, or whose compiler is missing, is left out, and the report says so. So is an adapter that such a process does not take.
+//! Route `embedded` is what the adapter `embedded` does, route `msl` what `clang` does, the others go to drivers, `tint` and `opengl` through
+//! processes of their own: a pair that makes no sense is not in the list. What a selection names must be in some pair, or the call is
+//! wrong; a route that nobody named and that has no adapter, or whose compiler is missing, is left out, and the report says so. So is an
+//! adapter that such a process does not take.
 
-use bossage_embedded::adapters;
+use bossage_metal::Metal;
 use bossage_runner::{AdapterInfo, AdapterSelector, HOW_TO_GET_AN_ADAPTER, Machine};
 use bossage_shaders::Library;
 use serde::Serialize;
 
 use crate::bench::Bench;
 use crate::error::Error;
-use crate::route::{Route, opengl, tint};
+use crate::route::{Route, opengl, tint, tools};
 use crate::run::Selection;
+
+/// Every adapter of this machine: those that drivers bring, `embedded`, and `clang` where that is.
+#[must_use]
+pub fn adapters() -> Vec<AdapterInfo> {
+    let mut all = bossage_embedded::adapters();
+    all.extend(bossage_metal::info(tools::all()));
+    all
+}
 
 /// A route that no adapter of this machine runs, or that one adapter does not.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -144,6 +153,9 @@ pub fn open(info: &AdapterInfo, route: Route) -> Result<Box<dyn Machine>, Error>
     let opened = match route {
         Route::Opengl => opengl::open(info),
         Route::Tint => tint::open(info),
+        Route::Msl => {
+            Metal::new(tools::all(), tools::cache()).map(|machine| Box::new(machine) as Box<dyn Machine>)
+        }
         Route::Wgsl | Route::Spirv | Route::Hlsl | Route::Glsl | Route::Embedded => {
             bossage_embedded::open(&AdapterSelector::named(&info.name))
         }
@@ -269,6 +281,13 @@ mod tests {
         }
     }
 
+    fn clang() -> AdapterInfo {
+        AdapterInfo {
+            name: bossage_metal::NAME.to_owned(),
+            ..bossage_embedded::info()
+        }
+    }
+
     fn selection(routes: &[Route], adapters: &[&str]) -> Selection {
         Selection {
             routes: routes.to_vec(),
@@ -312,7 +331,7 @@ mod tests {
 
     #[test]
     fn drivers_run_the_emitted_code_and_embedded_runs_itself() {
-        let all = [driver("one"), driver("two"), bossage_embedded::info()];
+        let all = [driver("one"), driver("two"), bossage_embedded::info(), clang()];
         let expected = [
             "wgsl on one",
             "spirv on one",
@@ -327,10 +346,12 @@ mod tests {
             "opengl on two",
             "tint on two",
             "embedded on embedded",
+            "msl on clang",
         ];
         assert_eq!(pairs(&[], &[], &all), expected);
         assert_eq!(pairs(&[Route::Embedded], &[], &all), ["embedded on embedded"]);
         assert_eq!(pairs(&[], &["embedded"], &all), ["embedded on embedded"]);
+        assert_eq!(pairs(&[Route::Msl], &[], &all), ["msl on clang"]);
         assert_eq!(
             pairs(&[Route::Spirv], &[], &all),
             ["spirv on one", "spirv on two"]
@@ -354,8 +375,8 @@ mod tests {
 
     #[test]
     fn without_a_driver_embedded_runs_and_the_rest_is_said_to_be_left_out() {
-        let all = [bossage_embedded::info()];
-        assert_eq!(pairs(&[], &[], &all), ["embedded on embedded"]);
+        let all = [bossage_embedded::info(), clang()];
+        assert_eq!(pairs(&[], &[], &all), ["embedded on embedded", "msl on clang"]);
         let left_out = Pairs::of(&selection(&[], &[]), &all, nothing, nobody)
             .unwrap()
             .not_run;
@@ -372,7 +393,7 @@ mod tests {
             ]
         );
         assert!(left_out[0].reason.contains("mesa-vulkan-drivers"));
-        let with = [driver("one"), bossage_embedded::info()];
+        let with = [driver("one"), bossage_embedded::info(), clang()];
         assert_eq!(
             Pairs::of(&selection(&[], &[]), &with, nothing, nobody)
                 .unwrap()
@@ -383,7 +404,7 @@ mod tests {
 
     #[test]
     fn a_route_without_its_compiler_is_left_out_with_the_reason_and_refused_by_name() {
-        let all = [driver("one"), bossage_embedded::info()];
+        let all = [driver("one"), bossage_embedded::info(), clang()];
         let pairs = Pairs::of(&selection(&[], &[]), &all, dxc, nobody).unwrap();
         let [left_out] = &pairs.not_run[..] else {
             panic!("{:?}", pairs.not_run)
@@ -392,7 +413,7 @@ mod tests {
             (left_out.route, left_out.reason.as_str()),
             (Route::Hlsl, "`dxc` was not found; get it")
         );
-        assert_eq!(pairs.count(), 6);
+        assert_eq!(pairs.count(), 7);
         let error = Pairs::of(&selection(&[Route::Hlsl], &[]), &all, dxc, nobody).unwrap_err();
         assert!(error.is_missing_environment() && matches!(error, Error::NoTool { .. }));
         assert!(error.to_string().contains("get it"), "{error}");

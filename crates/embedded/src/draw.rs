@@ -1,16 +1,14 @@
 //! One draw: vertices, triangles, coverage, fragments.
 
-use bossage_bounds::F32;
-use bossage_runner::{Blend, Cull, Draw, Error, RenderJob, Shader, TargetFormat, push_constants, resolve};
+use bossage_runner::{Blend, Cull, Draw, Error, RenderJob, Shader, TargetFormat};
 use bossage_translate::Stage;
 
-use crate::bind::bindings;
 use crate::clip::{Clip, clip, guard_band};
 use crate::coverage::{Coverage, snap};
 use crate::failure::misfit;
 use crate::frame::Frame;
-use crate::machine::Embedded;
 use crate::shade::{Quad, Shading};
+use crate::stages::Stages;
 use crate::triangle::Triangle;
 use crate::vertex::Vertices;
 
@@ -19,35 +17,31 @@ const QUADS_A_RUN: usize = 1 << 12;
 
 /// Draws one mesh.
 pub(crate) fn run(
-    machine: &Embedded,
+    open: &dyn Fn(&Draw<'_>) -> Result<Box<dyn Stages>, Error>,
     job: &RenderJob<'_>,
     draw: &Draw<'_>,
     frame: &mut Frame,
 ) -> Result<(), Error> {
     check(job, draw)?;
-    let shaders = [&draw.vertex, &draw.fragment];
-    let resolved = resolve(job.name, &shaders, &draw.resources)?;
-    let pushed = push_constants(job.name, &shaders, &draw.resources)?;
-    let mut bindings = bindings::<F32>(job.name, &resolved)?.immediate(pushed);
-    let vertices = Vertices::run(machine, job.name, draw, &mut bindings)?;
+    let mut stages = open(draw)?;
+    let vertices = Vertices::run(stages.as_mut(), draw)?;
     let triangles = triangles(draw, &vertices.positions(draw)?);
     let size = [job.width, job.height];
     let quads = quads(&triangles, size);
     let shading = Shading::new(job.name, draw, size, &triangles, &vertices)?;
-    let fragment = machine.programs.get(job.name, &draw.fragment)?;
     let returns = |name: &str| {
         let mut outputs = draw.fragment.entry.outputs.iter();
         outputs.any(|output| output.builtin.as_deref() == Some(name))
     };
     let returns_depth = returns("frag_depth");
-    let late = fragment.may_discard || returns_depth || returns("sample_mask");
+    let late = stages.may_discard() || returns_depth || returns("sample_mask");
     let live = match (late, returns_depth) {
         (false, _) => frame.test_early(quads, &shading, draw),
         (true, false) => frame.leave_hidden_out(quads, &shading, draw.depth),
         (true, true) => quads,
     };
     for part in live.chunks(QUADS_A_RUN) {
-        let shaded = shading.run(&fragment.program, &mut bindings, part)?;
+        let shaded = shading.run(stages.as_mut(), part)?;
         frame.write(part, &shading, &shaded, draw, late);
     }
     Ok(())

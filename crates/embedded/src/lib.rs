@@ -7,7 +7,8 @@
 //! - [`adapters`]: every driver's, and `embedded` as the last;
 //! - [`open`]: the one that is wanted; without any driver that is this one;
 //! - [`Embedded`]: the machine itself;
-//! - [`bindings`]: what a job binds, as the evaluator takes it in any of its domains.
+//! - [`bindings`]: what a job binds, as the evaluator takes it in any of its domains;
+//! - [`render`]: the rasteriser, for another machine that runs [`Stages`] in a way of its own.
 //!
 //! What is taken from whom. Shading, texture reads and derivatives are the evaluator's. Coverage is a rasteriser's business,
 //! which no accuracy rule covers; ours follows what drivers do (see [`Embedded`]), so that pictures can be compared.
@@ -46,6 +47,7 @@ mod program;
 mod render;
 mod select;
 mod shade;
+mod stages;
 mod surface;
 mod texture;
 mod triangle;
@@ -53,4 +55,6 @@ mod vertex;
 
 pub use bind::bindings;
 pub use machine::Embedded;
+pub use render::render;
 pub use select::{NAME, adapters, info, open};
+pub use stages::Stages;

@@ -6,7 +6,9 @@ use bossage_runner::{
 
 use crate::bind::MAX_BUFFER_BYTES;
 use crate::program::Programs;
-use crate::{compute, render, select};
+use crate::render::render;
+use crate::stages::Evaluated;
+use crate::{compute, select};
 
 /// Workgroups of a dispatch along an axis: what WebGPU promises everywhere.
 const MAX_WORKGROUPS: u32 = 65_535;
@@ -62,6 +64,6 @@ impl Machine for Embedded {
     }
 
     fn render(&self, job: &RenderJob<'_>) -> Result<RenderOutput, Error> {
-        render::run(self, job)
+        render(job, &|draw| Ok(Box::new(Evaluated::new(self, job.name, draw)?)))
     }
 }

@@ -50,7 +50,8 @@ fn compile(job: &str, code: Code<'_>, entry: &str) -> Result<Compiled, Error> {
     let source = match code {
         Code::Wgsl(text) => Source::Wgsl(text.to_owned()),
         Code::Spirv(bytes) => Source::Spirv(bytes.to_vec()),
-        Code::Glsl(_) => return Err(invalid("the evaluator reads no GLSL".to_owned())),
+        Code::Glsl(_) => return Err(failure::unsupported(job, "a reader of GLSL")),
+        Code::Msl(_) => return Err(failure::unsupported(job, "a reader of MSL")),
     };
     let parsed = Parsed::parse(job, &source).map_err(|diagnostic| invalid(diagnostic.to_string()))?;
     let (module, info) = parsed

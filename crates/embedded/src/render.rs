@@ -1,11 +1,11 @@
 //! Pictures: the draws of all passes, in their order.
 
-use bossage_runner::{Error, RenderJob, RenderOutput};
+use bossage_runner::{Draw, Error, RenderJob, RenderOutput};
 
 use crate::draw;
 use crate::failure::within;
 use crate::frame::Frame;
-use crate::machine::Embedded;
+use crate::stages::Stages;
 
 /// The longest side of a picture: what WebGPU promises everywhere.
 const MAX_SIDE: u32 = 8192;
@@ -13,12 +13,18 @@ const MAX_SIDE: u32 = 8192;
 /// The most targets of a picture: what WebGPU promises everywhere.
 const MAX_TARGETS: usize = 8;
 
-/// Draws a picture.
-pub(crate) fn run(machine: &Embedded, job: &RenderJob<'_>) -> Result<RenderOutput, Error> {
+/// Draws a picture, with whatever runs the two stages of each draw. All else is the same for every machine without a driver.
+///
+/// # Errors
+/// What a device refuses is refused here, too; and what the stages say.
+pub fn render(
+    job: &RenderJob<'_>,
+    open: &dyn Fn(&Draw<'_>) -> Result<Box<dyn Stages>, Error>,
+) -> Result<RenderOutput, Error> {
     check(job)?;
     let mut frame = Frame::new(job);
     for draw in job.passes.iter().flatten() {
-        draw::run(machine, job, draw, &mut frame)?;
+        draw::run(open, job, draw, &mut frame)?;
     }
     Ok(frame.finish(job.read_depth))
 }

@@ -1,11 +1,12 @@
 //! The fragment stage over quads: inputs interpolated at each pixel's centre, helper invocations included.
 
-use bossage_bounds::{Bindings, F32, Limits, Scalar, Slot, StageInputs, StageOutputs, Truth, run_fragment};
+use bossage_bounds::{F32, Scalar, Slot, StageInputs, StageOutputs, Truth};
 use bossage_runner::{Draw, Error};
 use bossage_translate::manifest::{Kind, Varying};
 use rayon::prelude::*;
 
-use crate::failure::{misfit, of_job, unsupported};
+use crate::failure::{misfit, unsupported};
+use crate::stages::Stages;
 use crate::triangle::{Triangle, Weights};
 use crate::vertex::{Values, Vertices};
 
@@ -54,7 +55,6 @@ enum Input<'a> {
 
 /// The fragment stage of a draw, ready to run.
 pub(crate) struct Shading<'a> {
-    pub(crate) job: &'a str,
     pub(crate) size: [u32; 2],
     pub(crate) triangles: &'a [Triangle],
     inputs: Vec<Input<'a>>,
@@ -63,7 +63,7 @@ pub(crate) struct Shading<'a> {
 impl<'a> Shading<'a> {
     /// Checks that the vertex stage gives what the fragment stage takes.
     pub(crate) fn new(
-        job: &'a str,
+        job: &str,
         draw: &Draw<'_>,
         size: [u32; 2],
         triangles: &'a [Triangle],
@@ -79,7 +79,6 @@ impl<'a> Shading<'a> {
             inputs.extend(input(job, draw, vertices, varying)?);
         }
         Ok(Self {
-            job,
             size,
             triangles,
             inputs,
@@ -95,12 +94,7 @@ impl<'a> Shading<'a> {
     }
 
     /// Runs the fragment stage over quads.
-    pub(crate) fn run(
-        &self,
-        program: &bossage_bounds::Program,
-        bindings: &mut Bindings<F32>,
-        quads: &[Quad],
-    ) -> Result<Shaded, Error> {
+    pub(crate) fn run(&self, stages: &mut dyn Stages, quads: &[Quad]) -> Result<Shaded, Error> {
         let weights: Vec<Weights> = (0..4 * quads.len())
             .into_par_iter()
             .map(|at| self.weights(&quads[at / 4], (at % 4) as u32))
@@ -120,9 +114,7 @@ impl<'a> Shading<'a> {
                 .collect();
             inputs = inputs.set(slot, components, column);
         }
-        let (outputs, _) = run_fragment(program, bindings, &inputs, &Limits::default())
-            .map_err(|refusal| of_job(self.job, refusal))?;
-        Ok(Shaded(outputs))
+        Ok(Shaded(stages.fragments(&inputs)?))
     }
 }
 

@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use bossage_bounds::{Bindings, Column, F32, Limits, Scalar, Slot, StageInputs, run_vertex};
+use bossage_bounds::{Column, F32, Scalar, Slot, StageInputs};
 use bossage_runner::{Draw, Error};
 
 use crate::clip::Clip;
-use crate::failure::{misfit, of_job};
-use crate::machine::Embedded;
+use crate::failure::misfit;
+use crate::stages::Stages;
 
 /// Vertices that run together.
 const VERTICES_A_RUN: usize = 1 << 14;
@@ -66,13 +66,7 @@ impl Values {
 
 impl Vertices {
     /// Runs the vertex stage. The mesh has been validated against it.
-    pub(crate) fn run(
-        machine: &Embedded,
-        job: &str,
-        draw: &Draw<'_>,
-        bindings: &mut Bindings<F32>,
-    ) -> Result<Self, Error> {
-        let compiled = machine.programs.get(job, &draw.vertex)?;
+    pub(crate) fn run(stages: &mut dyn Stages, draw: &Draw<'_>) -> Result<Self, Error> {
         let count = draw
             .mesh
             .indices
@@ -82,9 +76,7 @@ impl Vertices {
         let mut all = Self::default();
         for start in (0..count).step_by(VERTICES_A_RUN) {
             let inputs = inputs(draw, start..count.min(start + VERTICES_A_RUN));
-            let (outputs, _) = run_vertex(&compiled.program, bindings, &inputs, &Limits::default())
-                .map_err(|refusal| of_job(job, refusal))?;
-            for (slot, column) in outputs.columns {
+            for (slot, column) in stages.vertices(&inputs)?.columns {
                 let values = Values::of(column);
                 match all.outputs.get_mut(&slot) {
                     Some(known) => known.extend(values),

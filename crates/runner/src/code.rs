@@ -15,6 +15,8 @@ pub enum Code<'a> {
     Spirv(&'a [u8]),
     /// Emitted GLSL, for machines that take it: a [`Device`](crate::Device) does not.
     Glsl(&'a str),
+    /// Route `msl`: the emitted text of one entry point. No driver here takes it; a machine that compiles it does.
+    Msl(&'a str),
 }
 
 impl Code<'_> {
@@ -25,6 +27,7 @@ impl Code<'_> {
             Self::Wgsl(_) => "wgsl",
             Self::Spirv(_) => "spirv",
             Self::Glsl(_) => "glsl",
+            Self::Msl(_) => "msl",
         }
     }
 
@@ -32,7 +35,7 @@ impl Code<'_> {
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         match self {
-            Self::Wgsl(text) | Self::Glsl(text) => text.as_bytes(),
+            Self::Wgsl(text) | Self::Glsl(text) | Self::Msl(text) => text.as_bytes(),
             Self::Spirv(bytes) => bytes,
         }
     }
@@ -79,7 +82,7 @@ impl<'a> Shader<'a> {
             .unwrap_or(&self.entry.name);
         match self.code {
             Code::Wgsl(text) if !defines(text, emitted) => &self.entry.name,
-            Code::Wgsl(_) | Code::Spirv(_) | Code::Glsl(_) => emitted,
+            Code::Wgsl(_) | Code::Spirv(_) | Code::Glsl(_) | Code::Msl(_) => emitted,
         }
     }
 
@@ -88,7 +91,9 @@ impl<'a> Shader<'a> {
     pub fn place(&self, binding: &Binding) -> (u32, u32) {
         match (self.code, binding.spirv) {
             (Code::Spirv(_), Some(slot)) => (slot.set, slot.binding),
-            (Code::Spirv(_), None) | (Code::Wgsl(_) | Code::Glsl(_), _) => (binding.group, binding.binding),
+            (Code::Spirv(_), None) | (Code::Wgsl(_) | Code::Glsl(_) | Code::Msl(_), _) => {
+                (binding.group, binding.binding)
+            }
         }
     }
 }

@@ -56,6 +56,11 @@ fn module(device: &Device, job: &str, shader: &Shader<'_>) -> Result<wgpu::Shade
             device.require(job, wgpu::Features::PASSTHROUGH_SHADERS, what)?;
             Ok(crate::passthrough::create(&device.device, job, &module))
         }
+        Code::Msl(_) => Err(Error::Unsupported {
+            job: job.to_owned(),
+            adapter: device.info().name.clone(),
+            what: "a compiler of MSL".to_owned(),
+        }),
     })
 }
 

@@ -186,6 +186,7 @@ fn msl_has_real_slots_only() {
                     ..EmitOptions::default()
                 };
                 let emitted = emit(&shader, Target::Msl, &options).unwrap_or_else(|e| panic!("{e}"));
+                assert_accepted(&emitted, &options, "clang");
                 for file in &emitted.files {
                     let text = file.contents.text().unwrap();
                     assert!(!text.contains("user(fake"), "{name}: {text}");
@@ -315,6 +316,7 @@ fn a_broken_file_fails_its_check() {
         (Target::Spirv, "spirv-val"),
         (Target::Glsl, "glslangValidator"),
         (Target::Hlsl, "dxc"),
+        (Target::Msl, "clang"),
     ];
     for (target, name) in tools {
         let Some(tools) = tool(name) else { continue };

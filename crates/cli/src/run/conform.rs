@@ -154,7 +154,7 @@ fn adapters(given: &[String]) -> Vec<String> {
     if given.is_empty() {
         return Vec::new();
     }
-    let found = bossage_embedded::adapters();
+    let found = bossage_conformance::machines::adapters();
     let is_whole = |name: &str| {
         found
             .iter()

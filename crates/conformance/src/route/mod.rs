@@ -8,11 +8,12 @@ mod embedded;
 mod fault;
 mod glsl;
 mod hlsl;
+mod msl;
 pub(crate) mod opengl;
 mod remote;
 mod spirv;
 pub(crate) mod tint;
-mod tools;
+pub(crate) mod tools;
 mod wgsl;
 
 use std::collections::BTreeMap;
@@ -48,19 +49,22 @@ pub enum Route {
     Opengl,
     /// The emitted WGSL text, compiled by Tint and run by Dawn.
     Tint,
+    /// The emitted MSL text, compiled by clang as native code, which runs in processes of its own.
+    Msl,
     /// The text, evaluated by `bounds` in f32, without a driver.
     Embedded,
 }
 
 impl Route {
     /// All routes, in the order of the reports.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Wgsl,
         Self::Spirv,
         Self::Hlsl,
         Self::Glsl,
         Self::Opengl,
         Self::Tint,
+        Self::Msl,
         Self::Embedded,
     ];
 
@@ -74,6 +78,7 @@ impl Route {
             Self::Glsl => "glsl",
             Self::Opengl => "opengl",
             Self::Tint => "tint",
+            Self::Msl => "msl",
             Self::Embedded => "embedded",
         }
     }
@@ -82,8 +87,12 @@ impl Route {
     #[must_use]
     pub fn runs_on(self, info: &AdapterInfo) -> bool {
         let is_embedded = info.name == bossage_embedded::NAME;
+        let is_clang = info.name == bossage_metal::NAME;
         match self {
-            Self::Wgsl | Self::Spirv | Self::Hlsl | Self::Glsl | Self::Opengl | Self::Tint => !is_embedded,
+            Self::Wgsl | Self::Spirv | Self::Hlsl | Self::Glsl | Self::Opengl | Self::Tint => {
+                !is_embedded && !is_clang
+            }
+            Self::Msl => is_clang,
             Self::Embedded => is_embedded,
         }
     }
@@ -103,6 +112,7 @@ impl Route {
             Self::Glsl => Some("glslangValidator"),
             Self::Opengl => Some(opengl::TOOL),
             Self::Tint => Some(tint::TOOL),
+            Self::Msl => Some("clang"),
         }
     }
 
@@ -121,7 +131,7 @@ impl Route {
         match self {
             Self::Opengl => opengl::refuses(info),
             Self::Tint => tint::refuses(info),
-            Self::Wgsl | Self::Spirv | Self::Hlsl | Self::Glsl | Self::Embedded => None,
+            Self::Wgsl | Self::Spirv | Self::Hlsl | Self::Glsl | Self::Msl | Self::Embedded => None,
         }
     }
 
@@ -152,6 +162,7 @@ impl Route {
             Self::Glsl => glsl::prepare(shader, fault),
             Self::Opengl => opengl::prepare(shader, fault),
             Self::Tint => tint::prepare(shader, fault),
+            Self::Msl => msl::prepare(shader, fault),
             Self::Embedded => embedded::prepare(shader, assembled, fault),
         }
     }
@@ -192,6 +203,7 @@ enum Text {
     Wgsl(String),
     Spirv(Vec<u8>),
     Glsl(String),
+    Msl(String),
 }
 
 impl Prepared {
@@ -264,6 +276,7 @@ impl Prepared {
             Text::Wgsl(text) => Code::Wgsl(text),
             Text::Spirv(bytes) => Code::Spirv(bytes),
             Text::Glsl(text) => Code::Glsl(text),
+            Text::Msl(text) => Code::Msl(text),
         };
         Ok(Shader {
             code,
@@ -284,7 +297,7 @@ mod tests {
         let message = "spriv".parse::<Route>().unwrap_err().to_string();
         assert_eq!(
             message,
-            "no route is called `spriv`; there are: wgsl, spirv, hlsl, glsl, opengl, tint, embedded"
+            "no route is called `spriv`; there are: wgsl, spirv, hlsl, glsl, opengl, tint, msl, embedded"
         );
     }
 }

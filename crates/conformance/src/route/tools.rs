@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use bossage_translate::external::{self, State, Validator};
 
 /// Every tool that is known, there or not.
-pub(super) fn all() -> &'static [Validator] {
+pub(crate) fn all() -> &'static [Validator] {
     static FOUND: OnceLock<Vec<Validator>> = OnceLock::new();
     FOUND.get_or_init(external::detect)
 }
@@ -28,7 +28,7 @@ pub(super) fn path(tool: &str) -> Option<&'static Path> {
 }
 
 /// Where what tools made is kept between runs.
-pub(super) fn cache() -> Option<&'static Path> {
+pub(crate) fn cache() -> Option<&'static Path> {
     static FOLDER: OnceLock<Option<std::path::PathBuf>> = OnceLock::new();
     FOLDER.get_or_init(external::cache_folder).as_deref()
 }

@@ -284,7 +284,7 @@ fn run(request: &Request, say: &mut dyn FnMut(Said)) -> Result<(), Stop> {
 
 /// What runs a route on the adapter of that name.
 fn open(request: &Request, route: Route) -> Result<Box<dyn Machine>, Stop> {
-    let all = bossage_embedded::adapters();
+    let all = machines::adapters();
     let selector = AdapterSelector::named(&request.adapter);
     let info = all.iter().find(|info| selector.matches(info)).ok_or_else(|| {
         stop(&bossage_runner::Error::NoSuchAdapter {

@@ -495,14 +495,15 @@ fn the_same_cases_pass_without_a_fault() {
 }
 
 /// Each route with a fault in what it emits and nowhere else: the least view angle off by a per cent, by the name that the language gives
-/// to the number.
-const PLANTED: [(Route, &str, &str); 7] = [
+/// to the number, or two components swapped.
+const PLANTED: [(Route, &str, &str); 8] = [
     (Route::Wgsl, "0.05", "0.0505"),
     (Route::Spirv, "0.05", "0.0505"),
     (Route::Hlsl, "0.05", "0.0505"),
     (Route::Glsl, "0.05", "0.0505"),
     (Route::Opengl, "0.05", "0.0505"),
     (Route::Tint, "0.05f", "0.0505f"),
+    (Route::Msl, "view_dir_ts.xy", "view_dir_ts.yx"),
     (Route::Embedded, "0.05", "0.0505"),
 ];
 

@@ -9,7 +9,7 @@ use bossage_runner::{
 };
 
 use crate::flat::{SURFACE, WHOLE, draw, job, plain, rectangle};
-use crate::support::{Compiled, compile, device};
+use crate::support::{compile, device};
 
 /// The pictures of two draws of the whole target, the second blended with the first.
 fn blended(targets: RenderTarget, first: [f32; 4], second: [f32; 4], blend: Blend) -> Option<Picture> {
@@ -119,13 +119,12 @@ fn all_products_of_two_bytes_are_one_of_the_bytes_around_them_on_both_routes() {
     };
     let pairs = compile(PAIRS);
     let mesh = rectangle(WHOLE, 0.5);
-    let picked: [for<'a> fn(&'a Compiled, &str) -> bossage_runner::Shader<'a>; 2] =
-        [Compiled::wgsl, Compiled::spirv];
-    for stage in picked {
+    for route in 0..pairs.both("vertex").len() {
+        let stage = |entry: &str| pairs.both(entry)[route];
         let one = |fragment: &str, blend: Blend| Draw {
             blend,
             depth: Depth::Ignore,
-            ..draw(stage(&pairs, "vertex"), stage(&pairs, fragment), &mesh, [0.0; 4])
+            ..draw(stage("vertex"), stage(fragment), &mesh, [0.0; 4])
         };
         let job = RenderJob {
             name: "products",

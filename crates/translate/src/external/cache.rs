@@ -45,7 +45,7 @@ impl Entry {
 }
 
 /// A hash of byte strings that keeps them apart by their lengths.
-fn digest(parts: &[&[u8]]) -> String {
+pub(super) fn digest(parts: &[&[u8]]) -> String {
     let mut hash = Sha256::new();
     for part in parts {
         hash.update((part.len() as u64).to_le_bytes());

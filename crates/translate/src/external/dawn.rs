@@ -4,7 +4,7 @@
 //! derivatives are taken, for one. The program is `tools/dawn.cjs` of this crate over the library that a package of others brings.
 
 use crate::emit::EmittedFile;
-use crate::external::{Input, Tool};
+use crate::external::{Input, Tool, as_it_is};
 use crate::options::EmitOptions;
 use crate::target::Target;
 
@@ -16,6 +16,7 @@ pub(super) const TOOL: Tool = Tool {
     target: Target::Wgsl,
     input: Input::Pipe,
     arguments,
+    ready: as_it_is,
 };
 
 /// `Dawn: webgpu 0.6.2`

@@ -8,7 +8,7 @@
 //! a package of others brings.
 
 use crate::emit::EmittedFile;
-use crate::external::{Input, Tool, push};
+use crate::external::{Input, Tool, as_it_is, push};
 use crate::manifest::Entry;
 use crate::options::EmitOptions;
 use crate::target::{ShaderModel, Target};
@@ -21,6 +21,7 @@ pub(super) const TOOL: Tool = Tool {
     target: Target::Hlsl,
     input: Input::Path,
     arguments,
+    ready: as_it_is,
 };
 
 /// `libdxcompiler.so: 1.7 (3435, d66bdf94)`

@@ -4,7 +4,7 @@
 //! those of OpenGL. As a compiler it makes SPIR-V for Vulkan of the same text.
 
 use crate::emit::EmittedFile;
-use crate::external::{Input, Tool};
+use crate::external::{Input, Tool, as_it_is};
 use crate::options::EmitOptions;
 use crate::target::Target;
 
@@ -16,6 +16,7 @@ pub(super) const TOOL: Tool = Tool {
     target: Target::Glsl,
     input: Input::Pipe,
     arguments,
+    ready: as_it_is,
 };
 
 /// `Glslang Version: 11:12.0.0`

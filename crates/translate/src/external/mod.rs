@@ -4,7 +4,8 @@
 //! in a directory, keyed by tool, version, arguments and content. A tool runs in a process of its own with [`LIMITS`] on its time,
 //! its memory and on what it may say: whatever it does is a verdict on the file and nothing else.
 //!
-//! Two of the tools are compilers as well: [`to_spirv`] takes what they make of HLSL and GLSL, so that the emitted text can be run.
+//! Three of the tools are compilers as well: [`to_spirv`] takes what they make of HLSL and GLSL, [`compile_native`] what one makes of
+//! MSL, so that the emitted text can be run.
 //!
 //! One file a tool: a tool is a constant of `Tool`. To add one, write its file and list it in `TOOLS`.
 
@@ -19,12 +20,15 @@ use crate::options::EmitOptions;
 use crate::target::Target;
 
 mod cache;
+mod clang;
 mod compile;
 mod dawn;
 mod dxc;
 mod folders;
 mod formats;
 mod glslang;
+mod metal;
+mod native;
 mod parameters;
 mod push;
 mod relocate;
@@ -33,7 +37,8 @@ mod spirv_val;
 
 pub use compile::{Compiled, to_spirv};
 pub use folders::{cache_folder, find_program, tool_folders};
-pub use run::{Limits, Outcome, end, run, start};
+pub use native::{Native, compile_native};
+pub use run::{Limits, Outcome, Raw, end, run, run_raw, start};
 
 /// What a tool may take for one file. Every tool answers within milliseconds and a hundred megabytes: this ends a hang.
 pub const LIMITS: Limits = Limits {
@@ -43,7 +48,13 @@ pub const LIMITS: Limits = Limits {
 };
 
 /// Every tool that we know how to run.
-const TOOLS: [&Tool; 4] = [&spirv_val::TOOL, &glslang::TOOL, &dxc::TOOL, &dawn::TOOL];
+const TOOLS: [&Tool; 5] = [
+    &spirv_val::TOOL,
+    &glslang::TOOL,
+    &dxc::TOOL,
+    &dawn::TOOL,
+    &clang::TOOL,
+];
 
 /// What is known about a tool.
 struct Tool {
@@ -61,6 +72,8 @@ struct Tool {
     input: Input,
     /// The arguments for a file, but for its path; or why it cannot check it.
     arguments: fn(&EmittedFile, &EmitOptions) -> Result<Vec<String>, String>,
+    /// Arguments that only make it quicker, for this program of this version.
+    ready: fn(&Path, &str) -> Vec<String>,
 }
 
 /// How a tool gets a file.
@@ -238,6 +251,7 @@ fn verdict(
     if let Some(known) = cache.and_then(|dir| cache::read(dir, &key)) {
         return known;
     }
+    let arguments = [(tool.ready)(path, version), arguments].concat();
     match run_on(tool, path, arguments, content) {
         Ok(outcome) => {
             let state = if outcome.success {
@@ -253,6 +267,11 @@ fn verdict(
         }
         Err(problem) => (CheckState::Fail, problem),
     }
+}
+
+/// Of a tool that nothing makes quicker.
+fn as_it_is(_: &Path, _: &str) -> Vec<String> {
+    Vec::new()
 }
 
 /// Runs a tool on a content.

@@ -32,11 +32,55 @@ pub struct Outcome {
     pub output: String,
 }
 
+/// How a program ended, with what it wrote to standard output kept as it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Raw {
+    /// Whether it ended with exit code 0.
+    pub success: bool,
+    /// How it ended, in words.
+    pub status: String,
+    /// The beginning of what it wrote to standard output, at most [`Limits::output_bytes`].
+    pub output: Vec<u8>,
+    /// How many bytes more it wrote there.
+    pub surplus: usize,
+    /// The beginning of what it wrote to standard error.
+    pub errors: String,
+}
+
+/// What is kept of standard error beside bytes.
+const ERROR_BYTES: usize = 4096;
+
+/// Runs a program whose output is bytes.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_raw(program: &Path, arguments: &[String], input: &[u8], limits: &Limits) -> Result<Raw, String> {
+    let (status, out, err) = spoken(program, arguments, input, limits, ERROR_BYTES)?;
+    Ok(Raw {
+        success: status.success(),
+        status: status.to_string(),
+        output: out.bytes,
+        surplus: out.dropped,
+        errors: err.text(),
+    })
+}
+
 /// Runs a program on an input that it gets through a pipe.
 ///
 /// # Errors
 /// Why there is no outcome: it could not be started, or took too long and was ended.
 pub fn run(program: &Path, arguments: &[String], input: &[u8], limits: &Limits) -> Result<Outcome, String> {
+    let (status, out, err) = spoken(program, arguments, input, limits, limits.output_bytes)?;
+    Ok(outcome(status, out.text() + &err.text()))
+}
+
+fn spoken(
+    program: &Path,
+    arguments: &[String],
+    input: &[u8],
+    limits: &Limits,
+    error_bytes: usize,
+) -> Result<(ExitStatus, Kept, Kept), String> {
     let mut child = start(program, arguments, limits)
         .map_err(|error| format!("`{}` could not be started: {error}", program.display()))?;
     let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
@@ -46,14 +90,12 @@ pub fn run(program: &Path, arguments: &[String], input: &[u8], limits: &Limits) 
             stdin.map(|mut pipe| pipe.write_all(input))
         });
         let out =
-            scope.spawn(move || stdout.map_or_else(String::new, |pipe| keep(pipe, limits.output_bytes)));
-        let err =
-            scope.spawn(move || stderr.map_or_else(String::new, |pipe| keep(pipe, limits.output_bytes)));
+            scope.spawn(move || stdout.map_or_else(Kept::default, |pipe| keep(pipe, limits.output_bytes)));
+        let err = scope.spawn(move || stderr.map_or_else(Kept::default, |pipe| keep(pipe, error_bytes)));
         let status = wait(&mut child, limits.time);
-        let mut output = out.join().unwrap_or_default();
-        output.push_str(&err.join().unwrap_or_default());
+        let (out, err) = (out.join().unwrap_or_default(), err.join().unwrap_or_default());
         let status = status.map_err(|why| format!("`{}` {why}", program.display()))?;
-        Ok(outcome(status, output))
+        Ok((status, out, err))
     })
 }
 
@@ -120,21 +162,33 @@ fn outcome(status: ExitStatus, mut output: String) -> Outcome {
     }
 }
 
+/// The beginning of what a program said.
+#[derive(Default)]
+struct Kept {
+    bytes: Vec<u8>,
+    dropped: usize,
+}
+
+impl Kept {
+    fn text(&self) -> String {
+        let mut text = String::from_utf8_lossy(&self.bytes).into_owned();
+        if self.dropped > 0 {
+            text.push_str(&format!("\n… {} more bytes", self.dropped));
+        }
+        text
+    }
+}
+
 /// Reads to the end, so that the program never waits for us, but keeps only the beginning.
-fn keep(mut pipe: impl Read, limit: usize) -> String {
-    let mut kept = Vec::new();
-    let mut chunk = [0; 4096];
-    let mut dropped = 0;
+fn keep(mut pipe: impl Read, limit: usize) -> Kept {
+    let mut kept = Kept::default();
+    let mut chunk = [0; 1 << 16];
     while let Ok(count @ 1..) = pipe.read(&mut chunk) {
-        let room = limit.saturating_sub(kept.len()).min(count);
-        kept.extend_from_slice(&chunk[..room]);
-        dropped += count - room;
+        let room = limit.saturating_sub(kept.bytes.len()).min(count);
+        kept.bytes.extend_from_slice(&chunk[..room]);
+        kept.dropped += count - room;
     }
-    let mut text = String::from_utf8_lossy(&kept).into_owned();
-    if dropped > 0 {
-        text.push_str(&format!("\n… {dropped} more bytes"));
-    }
-    text
+    kept
 }
 
 /// Waits for the end, ever more patiently, and ends the program when its time is over.

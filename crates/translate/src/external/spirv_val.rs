@@ -3,7 +3,7 @@
 //! It checks a module against the rules of SPIR-V and of the Vulkan version that takes this version of SPIR-V.
 
 use crate::emit::EmittedFile;
-use crate::external::{Input, Tool};
+use crate::external::{Input, Tool, as_it_is};
 use crate::options::EmitOptions;
 use crate::target::Target;
 
@@ -15,6 +15,7 @@ pub(super) const TOOL: Tool = Tool {
     target: Target::Spirv,
     input: Input::Pipe,
     arguments,
+    ready: as_it_is,
 };
 
 /// `SPIRV-Tools v2023.1 unknown hash, 2023-03-10T05:07:01`

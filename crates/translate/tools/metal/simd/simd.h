@@ -1,0 +1,2 @@
+// Emitted code includes it, and uses nothing of it.
+#pragma once
