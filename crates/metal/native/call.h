@@ -2,7 +2,7 @@
 #pragma once
 
 // One invocation. A stage's values are words: floats as their bits, truth as 0 or 1.
-struct bossage_call {
+struct msl_host_call {
   void* const* buffers;
   const msl_texture* textures;
   const msl_sampler* samplers;
@@ -11,16 +11,16 @@ struct bossage_call {
   unsigned* out;
 };
 
-enum bossage_stage { bossage_compute, bossage_vertex, bossage_fragment };
+enum msl_host_stage { msl_host_compute, msl_host_vertex, msl_host_fragment };
 
 // What a caller says of its entry point.
-struct bossage_entry {
+struct msl_host_entry {
   unsigned stage, words_in, words_out, workgroup[3];
   bool waits; // whether invocations of a workgroup wait for each other
 };
 
 extern "C" {
-extern const bossage_entry bossage_shader;
-void bossage_begin_workgroup();
-void bossage_invoke(const bossage_call* call);
+extern const msl_host_entry msl_host_shader;
+void msl_host_begin_workgroup();
+void msl_host_invoke(const msl_host_call* call);
 }

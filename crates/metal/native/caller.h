@@ -10,7 +10,7 @@
 #undef static_cast
 #include "call.h"
 
-namespace bossage {
+namespace msl_host {
 template <int I, class... P> struct nth;
 template <class A, class... P> struct nth<0, A, P...> { typedef A type; };
 template <int I, class A, class... P> struct nth<I, A, P...> : nth<I - 1, P...> {};
@@ -49,4 +49,4 @@ template <class V> inline void to_words(unsigned*& words, const V& v) {
 template <class V> inline V of_ids(const unsigned* ids) {
   if constexpr (msl::is_vector<V>) { V v; for (int i = 0; i < msl::size<V>; i++) v[i] = ids[i]; return v; } else return ids[0];
 }
-} // namespace bossage
+} // namespace msl_host

@@ -24,7 +24,7 @@ struct coroutine {
   ucontext_t context;
   void* stack;
   bool done;
-  bossage_call call;
+  msl_host_call call;
 };
 coroutine* all;
 unsigned count, current;
@@ -37,7 +37,7 @@ unsigned turn[4], sizes[2][4];
 bool discarded[4];
 
 void run_current() {
-  bossage_invoke(&all[current].call);
+  msl_host_invoke(&all[current].call);
   all[current].done = true;
   swapcontext(&all[current].context, &home);
 }
@@ -161,8 +161,8 @@ void read_resources() {
   }
 }
 
-bossage_call a_call() {
-  bossage_call call = {};
+msl_host_call a_call() {
+  msl_host_call call = {};
   call.buffers = buffers;
   call.textures = textures;
   call.samplers = samplers;
@@ -170,14 +170,14 @@ bossage_call a_call() {
 }
 
 void dispatch() {
-  const unsigned* size = bossage_shader.workgroup;
+  const unsigned* size = msl_host_shader.workgroup;
   unsigned groups[3] = {word(), word(), word()}, n = size[0] * size[1] * size[2];
-  bool waits = bossage_shader.waits && n > 1;
+  bool waits = msl_host_shader.waits && n > 1;
   if (waits) make_coroutines(n);
   for (unsigned gz = 0; gz < groups[2]; gz++) for (unsigned gy = 0; gy < groups[1]; gy++) for (unsigned gx = 0; gx < groups[0]; gx++) {
-    bossage_begin_workgroup();
+    msl_host_begin_workgroup();
     for (unsigned i = 0; i < n; i++) {
-      bossage_call call = a_call();
+      msl_host_call call = a_call();
       unsigned local[3] = {i % size[0], i / size[0] % size[1], i / size[0] / size[1]}, group[3] = {gx, gy, gz};
       for (int k = 0; k < 3; k++) {
         call.local[k] = local[k];
@@ -186,7 +186,7 @@ void dispatch() {
         call.grid[k] = group[k] * size[k] + local[k];
       }
       call.index = i;
-      if (waits) all[i].call = call; else bossage_invoke(&call);
+      if (waits) all[i].call = call; else msl_host_invoke(&call);
     }
     if (waits) run_together(n, true);
   }
@@ -194,11 +194,11 @@ void dispatch() {
 
 // Vertices, or fragments in quads: a row of words for each goes in, one comes out, with one word more for what is discarded.
 void run_stage() {
-  unsigned n = word(), in = bossage_shader.words_in, out = bossage_shader.words_out, row = out + 1;
+  unsigned n = word(), in = msl_host_shader.words_in, out = msl_host_shader.words_out, row = out + 1;
   const unsigned* from = (const unsigned*)take(4ul * n * in);
   unsigned* to = (unsigned*)room_for(4ul * n * row);
-  bossage_call call = a_call();
-  bool quads = bossage_shader.stage == bossage_fragment && bossage_shader.waits;
+  msl_host_call call = a_call();
+  bool quads = msl_host_shader.stage == msl_host_fragment && msl_host_shader.waits;
   if (quads) make_coroutines(4);
   for (unsigned i = 0; i < n; i++) {
     call.in = from + (size_t)i * in;
@@ -207,7 +207,7 @@ void run_stage() {
     current = lane;
     discarded[lane] = false;
     if (!quads) {
-      bossage_invoke(&call);
+      msl_host_invoke(&call);
       call.out[out] = discarded[lane];
       continue;
     }
@@ -239,7 +239,7 @@ int main() {
   if (word() != 0x314c534d) fail("this is no job");
   read_resources();
   const unsigned begin = 0x4f4b4159, end = 0x444f4e45;
-  if (bossage_shader.stage == bossage_compute) {
+  if (msl_host_shader.stage == msl_host_compute) {
     dispatch();
     write_all(&begin, 4);
   } else {

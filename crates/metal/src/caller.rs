@@ -15,9 +15,9 @@ pub(crate) fn text(
     let own = &signature.name;
     let mut text = String::from("#include \"shader.metal\"\n#include \"caller.h\"\n");
     let stage = match signature.stage {
-        Stage::Compute => "bossage_compute",
-        Stage::Vertex => "bossage_vertex",
-        Stage::Fragment => "bossage_fragment",
+        Stage::Compute => "msl_host_compute",
+        Stage::Vertex => "msl_host_vertex",
+        Stage::Fragment => "msl_host_fragment",
     };
     let total = |list: Vec<&Declared>, gives: bool| list.iter().map(|d| components(d, gives)).sum::<usize>();
     let (words_in, words_out) = (
@@ -32,28 +32,28 @@ pub(crate) fn text(
     line(
         0,
         format!(
-            "const bossage_entry bossage_shader = {{{stage}, {words_in}, {words_out}, {{{x}, {y}, {z}}}, {waits}}};"
+            "const msl_host_entry msl_host_shader = {{{stage}, {words_in}, {words_out}, {{{x}, {y}, {z}}}, {waits}}};"
         ),
     );
-    let ty = |index: usize| format!("bossage::parameter<{index}, decltype(&{own})>");
+    let ty = |index: usize| format!("msl_host::parameter<{index}, decltype(&{own})>");
     let of_role = |role: Role| {
         (0_usize..)
             .zip(&signature.parameters)
             .filter(move |(_, p)| p.role == role)
     };
     for (index, _) in of_role(Role::Workgroup) {
-        line(0, format!("static {} bossage_shared_{index};", ty(index)));
+        line(0, format!("static {} msl_host_shared_{index};", ty(index)));
     }
-    line(0, "void bossage_begin_workgroup() {".to_owned());
+    line(0, "void msl_host_begin_workgroup() {".to_owned());
     for (index, _) in of_role(Role::Workgroup) {
         // What a workgroup finds in its memory is anything.
         line(
             1,
-            format!("__builtin_memset(&bossage_shared_{index}, 0xa5, sizeof bossage_shared_{index});"),
+            format!("__builtin_memset(&msl_host_shared_{index}, 0xa5, sizeof msl_host_shared_{index});"),
         );
     }
     line(0, "}".to_owned());
-    line(0, "void bossage_invoke(const bossage_call* call) {".to_owned());
+    line(0, "void msl_host_invoke(const msl_host_call* call) {".to_owned());
     line(1, "const unsigned* words = call->in;".to_owned());
     for (index, _) in of_role(Role::StageIn) {
         line(1, format!("{} a{index} = {{}};", ty(index)));
@@ -65,17 +65,17 @@ pub(crate) fn text(
             );
             line(
                 1,
-                format!("{place} = bossage::of_words<decltype({place})>(words);"),
+                format!("{place} = msl_host::of_words<decltype({place})>(words);"),
             );
         }
     }
     let mut arguments = Vec::new();
     for (index, parameter) in (0_usize..).zip(&signature.parameters) {
         arguments.push(match parameter.role {
-            Role::Buffer(slot) => format!("bossage::buffer{{call->buffers[{slot}]}}"),
-            Role::Texture(slot) => format!("bossage::texture{{&call->textures[{slot}]}}"),
+            Role::Buffer(slot) => format!("msl_host::buffer{{call->buffers[{slot}]}}"),
+            Role::Texture(slot) => format!("msl_host::texture{{&call->textures[{slot}]}}"),
             Role::Sampler(slot) => format!("metal::sampler{{&call->samplers[{slot}]}}"),
-            Role::Workgroup => format!("bossage_shared_{index}"),
+            Role::Workgroup => format!("msl_host_shared_{index}"),
             Role::StageIn => format!("a{index}"),
             Role::GridPosition => ids(&ty(index), "call->grid"),
             Role::WorkgroupPosition => ids(&ty(index), "call->group"),
@@ -94,7 +94,7 @@ pub(crate) fn text(
                 let ty = ty(index);
                 let count = components(parameter, false);
                 line(1, format!("static_assert(msl::size<{ty}> == {count});"));
-                line(1, format!("{ty} a{index} = bossage::of_words<{ty}>(words);"));
+                line(1, format!("{ty} a{index} = msl_host::of_words<{ty}>(words);"));
                 format!("a{index}")
             }
         });
@@ -111,7 +111,7 @@ pub(crate) fn text(
                 1,
                 format!("static_assert(msl::size<decltype(result.{name})> == {count});"),
             );
-            line(1, format!("bossage::to_words(out, result.{name});"));
+            line(1, format!("msl_host::to_words(out, result.{name});"));
         }
     }
     line(0, "}".to_owned());
@@ -119,5 +119,5 @@ pub(crate) fn text(
 }
 
 fn ids(ty: &str, from: &str) -> String {
-    format!("bossage::of_ids<{ty}>({from})")
+    format!("msl_host::of_ids<{ty}>({from})")
 }
