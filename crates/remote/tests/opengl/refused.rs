@@ -1,10 +1,10 @@
 //! What OpenGL refuses is said, and the next job runs.
 
-use bossage_remote::{Limits, Remote};
+use bossage_remote::Remote;
 use bossage_runner::{Code, Error, Shader};
 
 use crate::compute::{DOUBLE, probe};
-use crate::support::{compile, device, own};
+use crate::support::{compile, device};
 
 fn doubles(machine: &Remote) {
     let double = compile(DOUBLE);
@@ -73,35 +73,4 @@ fn wgsl_is_refused() {
     };
     let error = probe(shader, &[1.0], None).run(machine).unwrap_err();
     assert!(error.to_string().contains("OpenGL takes GLSL"), "{error}");
-}
-
-/// Never ends, and no compiler can know that.
-const ENDLESS: &str = "
-@group(0) @binding(0) var<storage, read> inputs: array<f32>;
-@group(0) @binding(1) var<storage, read_write> outputs: array<f32>;
-@compute @workgroup_size(1) fn double() {
-    loop {
-        outputs[0] = inputs[0] + outputs[0];
-        if outputs[0] > 10.0 { break; }
-    }
-}";
-
-#[test]
-fn a_shader_that_hangs_is_ended_and_the_next_job_runs() {
-    let limits = Limits {
-        time: std::time::Duration::from_secs(6),
-        ..Limits::default()
-    };
-    let Some(machine) = own("a_shader_that_hangs_is_ended_and_the_next_job_runs", limits) else {
-        return;
-    };
-    let endless = compile(ENDLESS);
-    let error = probe(endless.wgsl("double"), &[0.0], None)
-        .run(&machine)
-        .unwrap_err();
-    let Error::GaveUp { message, .. } = &error else {
-        panic!("{error}")
-    };
-    assert!(message.contains("longer than 6 s and was ended"), "{message}");
-    doubles(&machine);
 }

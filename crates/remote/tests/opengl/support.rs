@@ -28,12 +28,6 @@ pub(crate) fn device(test: &str) -> Option<&'static Remote> {
     }
 }
 
-/// A machine of the test's own.
-pub(crate) fn own(test: &str, limits: Limits) -> Option<Remote> {
-    device(test)?;
-    Some(open(limits).expect("it opened before"))
-}
-
 fn open(limits: Limits) -> Result<Remote, String> {
     let program: PathBuf = find_program("python3").ok_or("python3 was not found")?;
     Remote::open(Kind::OpenGl, &program, &adapter()?, limits).map_err(|error| error.to_string())
