@@ -75,6 +75,31 @@ pub const ALL: &[Deviation] = &[
         extent: |pair| !(0.0..4_294_967_296.0).contains(&pair[0]),
         reason: "naga writes `uint(x)` for GLSL, which leaves numbers beyond the integers open where WGSL takes the nearest",
     },
+    Deviation {
+        route: Some(Route::Opengl),
+        driver: "",
+        subject: "accuracy/to_int",
+        witness: &[3e9, 0.0],
+        extent: |pair| !(-2_147_483_648.0..2_147_483_648.0).contains(&pair[0]),
+        reason: "naga writes `int(x)` for GLSL, which leaves numbers beyond the integers open where WGSL takes the nearest",
+    },
+    Deviation {
+        route: Some(Route::Opengl),
+        driver: "",
+        subject: "accuracy/to_uint",
+        witness: &[-2.0, 0.0],
+        extent: |pair| !(0.0..4_294_967_296.0).contains(&pair[0]),
+        reason: "naga writes `uint(x)` for GLSL, which leaves numbers beyond the integers open where WGSL takes the nearest",
+    },
+    Deviation {
+        route: Some(Route::Opengl),
+        driver: "llvmpipe",
+        subject: "accuracy/asin",
+        witness: &[-0.472_800_5, 0.0],
+        extent: |pair| (0.36..0.48).contains(&pair[0].abs()),
+        reason: "Mesa's compiler of GLSL, which asks for no accuracy of `asin`, puts a polynomial in its place that is up to 2e-4 off: more \
+                 than WGSL allows where the result is just below a half",
+    },
 ];
 
 /// What is known of a subject on a route and an adapter.

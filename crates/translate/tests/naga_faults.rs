@@ -19,7 +19,7 @@ struct Fault {
     right: &'static str,
 }
 
-const FAULTS: [Fault; 3] = [
+const FAULTS: [Fault; 4] = [
     Fault {
         fixture: "sign_as_bits.wgsl",
         target: Target::Hlsl,
@@ -37,6 +37,12 @@ const FAULTS: [Fault; 3] = [
         target: Target::Glsl,
         wrong: "= uint(_e",
         right: "= uint(clamp(_e",
+    },
+    Fault {
+        fixture: "remainder_of_negative.wgsl",
+        target: Target::Glsl,
+        wrong: "(dividend % divisor)",
+        right: "naga_mod(dividend, divisor)",
     },
 ];
 
