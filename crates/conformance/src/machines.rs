@@ -429,7 +429,7 @@ mod tests {
             adapter: Some("one".to_owned()),
             reason: "Dawn needs more".to_owned(),
         };
-        assert_eq!(pairs.not_run, [expected.clone()]);
+        assert_eq!(pairs.not_run, std::slice::from_ref(&expected));
         // Where it was not named, the others of that adapter go on.
         let pairs = Pairs::of(&selection(&[], &["one"]), &all, nothing, dawn).unwrap();
         assert_eq!((pairs.count(), &pairs.not_run[..]), (5, &[expected][..]));

@@ -8,7 +8,7 @@ use crate::coverage::{Coverage, snap};
 use crate::failure::misfit;
 use crate::frame::Frame;
 use crate::shade::{Quad, Shading};
-use crate::stages::Stages;
+use crate::stages::Open;
 use crate::triangle::Triangle;
 use crate::vertex::Vertices;
 
@@ -17,7 +17,7 @@ const QUADS_A_RUN: usize = 1 << 12;
 
 /// Draws one mesh.
 pub(crate) fn run(
-    open: &dyn Fn(&Draw<'_>) -> Result<Box<dyn Stages>, Error>,
+    open: &Open<'_>,
     job: &RenderJob<'_>,
     draw: &Draw<'_>,
     frame: &mut Frame,

@@ -57,4 +57,4 @@ pub use bind::bindings;
 pub use machine::Embedded;
 pub use render::render;
 pub use select::{NAME, adapters, info, open};
-pub use stages::Stages;
+pub use stages::{Open, Stages};

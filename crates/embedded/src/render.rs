@@ -1,11 +1,11 @@
 //! Pictures: the draws of all passes, in their order.
 
-use bossage_runner::{Draw, Error, RenderJob, RenderOutput};
+use bossage_runner::{Error, RenderJob, RenderOutput};
 
 use crate::draw;
 use crate::failure::within;
 use crate::frame::Frame;
-use crate::stages::Stages;
+use crate::stages::Open;
 
 /// The longest side of a picture: what WebGPU promises everywhere.
 const MAX_SIDE: u32 = 8192;
@@ -17,10 +17,7 @@ const MAX_TARGETS: usize = 8;
 ///
 /// # Errors
 /// What a device refuses is refused here, too; and what the stages say.
-pub fn render(
-    job: &RenderJob<'_>,
-    open: &dyn Fn(&Draw<'_>) -> Result<Box<dyn Stages>, Error>,
-) -> Result<RenderOutput, Error> {
+pub fn render(job: &RenderJob<'_>, open: &Open<'_>) -> Result<RenderOutput, Error> {
     check(job)?;
     let mut frame = Frame::new(job);
     for draw in job.passes.iter().flatten() {

@@ -28,6 +28,9 @@ pub trait Stages {
     fn may_discard(&self) -> bool;
 }
 
+/// Opens the stages of a draw, bound to what it binds.
+pub type Open<'a> = dyn Fn(&Draw<'_>) -> Result<Box<dyn Stages>, Error> + 'a;
+
 /// The evaluator.
 pub(crate) struct Evaluated {
     job: String,

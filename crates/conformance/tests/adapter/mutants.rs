@@ -103,7 +103,7 @@ const MUTANTS: &[Mutant] = &[
         file: "entry/cone_map.wesl",
         from: "base.lowest = min(min(h.x, h.y), min(h.z, h.w));",
         to: "base.lowest = max(max(h.x, h.y), max(h.z, h.w));",
-        filter: "cone_map/bake:edge=clamp;field=block",
+        filter: "relaxed_cone_map/bake:edge=clamp;field=block",
     },
     Mutant {
         what: "nodes two texels further away than they are",
