@@ -230,7 +230,7 @@ fn gallery_shares_and_parts() {
     assert!(has("grating", EffectId::AlphaDiscard) && !has("bricks", EffectId::AlphaDiscard));
     assert!(material(&plan, "bricks").choice.is_some() && material(&plan, "brass").choice.is_none());
     assert!(has("brass", EffectId::CofactorMatrix) && !has("clay", EffectId::CofactorMatrix));
-    assert!(has("steel", EffectId::Handedness) && !has("bricks", EffectId::Handedness));
+    assert!(has("steel", EffectId::Handedness) && !has("clay", EffectId::Handedness));
     assert!(
         plan.materials
             .iter()
