@@ -13,8 +13,8 @@ use crate::verdict::Verdict;
 /// One of them.
 #[derive(Clone, Copy, Debug)]
 pub struct Deviation {
-    /// The only route on which it shows; every route when `None`.
-    pub route: Option<Route>,
+    /// The routes on which it shows. Empty: every route.
+    pub routes: &'static [Route],
     /// Part of the adapter's name or driver, as on the command line. Empty: every driver.
     pub driver: &'static str,
     /// What deviates: `accuracy/FUNCTION`, or a technique with the kind of its case.
@@ -30,7 +30,7 @@ pub struct Deviation {
 /// All that are known.
 pub const ALL: &[Deviation] = &[
     Deviation {
-        route: None,
+        routes: &[],
         driver: "SwiftShader",
         subject: "accuracy/atan2",
         witness: &[-0.0, 1.0],
@@ -38,7 +38,7 @@ pub const ALL: &[Deviation] = &[
         reason: "atan2(-0, x) is π for x > 0",
     },
     Deviation {
-        route: None,
+        routes: &[],
         driver: "SwiftShader",
         subject: "normalisation_cube_map/lookup",
         witness: &[0.003_906_25, -0.001_091_254_5, 0.003_830_036_4, 16.0],
@@ -52,7 +52,7 @@ pub const ALL: &[Deviation] = &[
         reason: "filtered across the edge of a face, a cube map gives other colours than the four texels around the place",
     },
     Deviation {
-        route: Some(Route::Hlsl),
+        routes: &[Route::Hlsl],
         driver: "",
         subject: "accuracy/sign",
         witness: &[2.0, 0.0],
@@ -60,7 +60,7 @@ pub const ALL: &[Deviation] = &[
         reason: "naga writes `sign(x)` for HLSL as for WGSL, where its result is an integer: stored by `asuint`, its bits are no float's",
     },
     Deviation {
-        route: Some(Route::Glsl),
+        routes: &[Route::Glsl, Route::Opengl],
         driver: "",
         subject: "accuracy/to_int",
         witness: &[3e9, 0.0],
@@ -68,7 +68,7 @@ pub const ALL: &[Deviation] = &[
         reason: "naga writes `int(x)` for GLSL, which leaves numbers beyond the integers open where WGSL takes the nearest",
     },
     Deviation {
-        route: Some(Route::Glsl),
+        routes: &[Route::Glsl, Route::Opengl],
         driver: "",
         subject: "accuracy/to_uint",
         witness: &[-2.0, 0.0],
@@ -76,23 +76,7 @@ pub const ALL: &[Deviation] = &[
         reason: "naga writes `uint(x)` for GLSL, which leaves numbers beyond the integers open where WGSL takes the nearest",
     },
     Deviation {
-        route: Some(Route::Opengl),
-        driver: "",
-        subject: "accuracy/to_int",
-        witness: &[3e9, 0.0],
-        extent: |pair| !(-2_147_483_648.0..2_147_483_648.0).contains(&pair[0]),
-        reason: "naga writes `int(x)` for GLSL, which leaves numbers beyond the integers open where WGSL takes the nearest",
-    },
-    Deviation {
-        route: Some(Route::Opengl),
-        driver: "",
-        subject: "accuracy/to_uint",
-        witness: &[-2.0, 0.0],
-        extent: |pair| !(0.0..4_294_967_296.0).contains(&pair[0]),
-        reason: "naga writes `uint(x)` for GLSL, which leaves numbers beyond the integers open where WGSL takes the nearest",
-    },
-    Deviation {
-        route: Some(Route::Opengl),
+        routes: &[Route::Opengl],
         driver: "llvmpipe",
         subject: "accuracy/asin",
         witness: &[-0.472_800_5, 0.0],
@@ -107,7 +91,7 @@ pub const ALL: &[Deviation] = &[
 pub fn of(subject: &str, route: Route, info: &AdapterInfo) -> Option<&'static Deviation> {
     ALL.iter().find(|known| {
         known.subject == subject
-            && known.route.is_none_or(|only| only == route)
+            && (known.routes.is_empty() || known.routes.contains(&route))
             && (known.driver.is_empty() || AdapterSelector::named(known.driver).matches(info))
     })
 }
@@ -198,7 +182,7 @@ mod tests {
     use crate::bound::Bound;
 
     static KNOWN: Deviation = Deviation {
-        route: Some(Route::Spirv),
+        routes: &[Route::Spirv],
         driver: "",
         subject: "accuracy/add",
         witness: &[1.0, 2.0],

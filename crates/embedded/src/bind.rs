@@ -1,10 +1,9 @@
 //! What a job binds, as the evaluator's bindings.
 
 use bossage_bounds::{Bindings, CompareFunction, Domain};
-use bossage_runner::{Error, Resolved, Value};
+use bossage_runner::{Error, Resolved, Value, within};
 use bossage_translate::manifest::Kind;
 
-use crate::failure::within;
 use crate::texture;
 
 /// Bytes of a buffer: what WebGPU promises everywhere.

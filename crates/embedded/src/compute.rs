@@ -4,29 +4,16 @@ use std::collections::BTreeMap;
 
 use bossage_bounds::{F32, Limits, run_compute};
 use bossage_runner::{ComputeJob, ComputeOutput, Error, Machine, Value, push_constants, resolve};
-use bossage_translate::Stage;
 use bossage_translate::manifest::Kind;
 
 use crate::bind::bindings;
-use crate::failure::{misfit, of_job, within};
+use crate::failure::{misfit, of_job};
 use crate::machine::Embedded;
 use crate::texture;
 
 /// Runs a dispatch; gives back all buffers and textures that it may write.
 pub(crate) fn run(machine: &Embedded, job: &ComputeJob<'_>) -> Result<ComputeOutput, Error> {
-    let entry = job.shader.entry;
-    if entry.stage != Stage::Compute {
-        return Err(misfit(entry, job.name, format!("it is a {} shader", entry.stage)));
-    }
-    let limit = u64::from(machine.dispatch_limits().workgroups);
-    for count in job.workgroups {
-        within(
-            job.name,
-            "the number of workgroups along an axis",
-            u64::from(count),
-            limit,
-        )?;
-    }
+    job.check(machine.dispatch_limits().workgroups)?;
     let resolved = resolve(job.name, &[&job.shader], &job.resources)?;
     let pushed = push_constants(job.name, &[&job.shader], &job.resources)?;
     let mut bindings = bindings::<F32>(job.name, &resolved)?.immediate(pushed);
@@ -50,7 +37,13 @@ pub(crate) fn run(machine: &Embedded, job: &ComputeJob<'_>) -> Result<ComputeOut
         let (group, binding) = one.place;
         bindings
             .read_bytes(&compiled.program, group, binding, &mut bytes)
-            .ok_or_else(|| misfit(entry, &one.binding.name, "it can't be read back".to_owned()))?;
+            .ok_or_else(|| {
+                misfit(
+                    job.shader.entry,
+                    &one.binding.name,
+                    "it can't be read back".to_owned(),
+                )
+            })?;
         buffers.insert(one.binding.name.clone(), bytes);
     }
     let mut textures = BTreeMap::new();

@@ -40,16 +40,3 @@ pub(crate) fn misfit(entry: &Entry, name: &str, problem: String) -> Error {
         problem,
     }
 }
-
-/// Fails when a value is beyond a limit.
-pub(crate) fn within(job: &str, what: &'static str, given: u64, limit: u64) -> Result<(), Error> {
-    if given <= limit {
-        return Ok(());
-    }
-    Err(Error::TooLarge {
-        job: job.to_owned(),
-        what,
-        given,
-        limit,
-    })
-}

@@ -1,9 +1,8 @@
 //! Pictures: the draws of all passes, in their order.
 
-use bossage_runner::{Error, RenderJob, RenderOutput};
+use bossage_runner::{Error, RenderJob, RenderOutput, within};
 
 use crate::draw;
-use crate::failure::within;
 use crate::frame::Frame;
 use crate::stages::Open;
 

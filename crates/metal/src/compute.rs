@@ -3,29 +3,15 @@
 use std::collections::BTreeMap;
 
 use bossage_runner::{ComputeJob, ComputeOutput, Error, Machine, push_constants, resolve};
-use bossage_translate::Stage;
 
 use crate::child;
-use crate::failure::{misfit, within};
 use crate::job::Words;
 use crate::machine::Metal;
 use crate::tables::Tables;
 
 /// Runs a dispatch; gives back all buffers that it may write.
 pub(crate) fn run(machine: &Metal, job: &ComputeJob<'_>) -> Result<ComputeOutput, Error> {
-    let entry = job.shader.entry;
-    if entry.stage != Stage::Compute {
-        return Err(misfit(entry, job.name, format!("it is a {} shader", entry.stage)));
-    }
-    let limit = u64::from(machine.dispatch_limits().workgroups);
-    for count in job.workgroups {
-        within(
-            job.name,
-            "the number of workgroups along an axis",
-            u64::from(count),
-            limit,
-        )?;
-    }
+    job.check(machine.dispatch_limits().workgroups)?;
     let resolved = resolve(job.name, &[&job.shader], &job.resources)?;
     let pushed = push_constants(job.name, &[&job.shader], &job.resources)?;
     let tables = Tables::of(job.name, &job.shader, &resolved, &pushed)?;

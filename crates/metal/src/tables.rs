@@ -2,10 +2,11 @@
 
 use bossage_runner::{
     AddressMode, Error, Filter, Resolved, SamplerSettings, Shader, TextureData, TextureDimension, Value,
+    within,
 };
 use bossage_translate::manifest::{Binding, Kind};
 
-use crate::failure::{misfit, unsupported, within};
+use crate::failure::{misfit, unsupported};
 use crate::job::Words;
 use crate::texels;
 
@@ -163,10 +164,10 @@ fn sampler(table: &mut Table, job: &str, slot: u32, settings: &SamplerSettings) 
         AddressMode::Mirror => 2,
     };
     let linear = |filter: Filter| u32::from(filter == Filter::Linear);
-    let (within, between) = (linear(settings.filter), linear(settings.mip_filter));
+    let (inside, between) = (linear(settings.filter), linear(settings.mip_filter));
     let row = table.row(slot);
     // A comparison is by "less or equal", as on every machine.
-    for number in [address, address, address, within, within, between, 3] {
+    for number in [address, address, address, inside, inside, between, 3] {
         row.word(number);
     }
     row.float(0.0);

@@ -83,19 +83,6 @@ impl Remote {
         }
     }
 
-    /// Fails when a value is beyond a limit.
-    pub(crate) fn within(job: &str, what: &'static str, given: u64, limit: u64) -> Result<(), Error> {
-        if given <= limit {
-            return Ok(());
-        }
-        Err(Error::TooLarge {
-            job: job.to_owned(),
-            what,
-            given,
-            limit,
-        })
-    }
-
     /// Has a job done: the parts of its answer.
     pub(crate) fn ask(&self, job: &str, request: &Request, data: &Data) -> Result<Vec<Vec<u8>>, Error> {
         let internal = |message: String| answer::error(self.kind, job, "internal", message);

@@ -2,7 +2,7 @@
 
 use bossage_runner::{
     Blend as Blending, Clear, Cull, Depth, Draw as Drawn, Error, Picture, RenderJob, RenderOutput,
-    RenderTarget, SENTINEL_BITS, TargetFormat,
+    RenderTarget, SENTINEL_BITS, TargetFormat, within,
 };
 
 use crate::answer::Capacity;
@@ -26,9 +26,9 @@ pub(crate) fn run(remote: &Remote, job: &RenderJob<'_>) -> Result<RenderOutput, 
     }
     let Capacity { side, targets, .. } = remote.capacity;
     let longer = u64::from(job.width.max(job.height));
-    Remote::within(job.name, "the picture's side", longer, u64::from(side))?;
+    within(job.name, "the picture's side", longer, u64::from(side))?;
     let given = job.targets.len() as u64;
-    Remote::within(job.name, "the number of targets", given, u64::from(targets))?;
+    within(job.name, "the number of targets", given, u64::from(targets))?;
     let mut data = Data::default();
     let mut passes = Vec::new();
     for pass in &job.passes {

@@ -13,6 +13,7 @@ use crate::code::{Code, Shader};
 use crate::device::Device;
 use crate::error::Error;
 use crate::layout;
+use crate::limits::within;
 use crate::pipeline;
 use crate::resolve::{Resolved, Value, push_constants, resolve};
 use crate::resources::{BufferData, Resources};
@@ -101,7 +102,7 @@ fn check_push_constants(device: &Device, job: &str, bytes: &[u8]) -> Result<(), 
     }
     device.require(job, wgpu::Features::IMMEDIATES, "push constants")?;
     let limit = u64::from(device.limits().max_immediate_size);
-    device.within(
+    within(
         job,
         "the size of the push constants in bytes",
         bytes.len() as u64,
@@ -217,8 +218,7 @@ impl Binder<'_> {
         usage: wgpu::BufferUsages,
         limit: u64,
     ) -> Result<(wgpu::BindingType, Resource), Error> {
-        self.device
-            .within(self.job, "a buffer's size in bytes", data.len() as u64, limit)?;
+        within(self.job, "a buffer's size in bytes", data.len() as u64, limit)?;
         let ty = layout::buffer_type(resolved.binding.kind).ok_or_else(|| {
             let problem = "the manifest calls it no buffer".to_owned();
             layout::misfit(resolved.entry, &resolved.binding.name, problem)

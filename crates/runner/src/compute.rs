@@ -10,10 +10,11 @@ use crate::binding::{self, Bound};
 use crate::code::Shader;
 use crate::device::Device;
 use crate::error::Error;
+use crate::limits::within;
 use crate::machine::Machine;
 use crate::readback::PictureCopy;
 use crate::resources::Resources;
-use crate::{layout, pipeline, readback};
+use crate::{pipeline, readback};
 
 /// A dispatch.
 #[derive(Clone, Debug)]
@@ -71,20 +72,24 @@ pub(crate) struct PreparedCompute {
 }
 
 impl ComputeJob<'_> {
-    pub(crate) fn prepare(&self, device: &Device) -> Result<PreparedCompute, Error> {
-        if self.shader.entry.stage != Stage::Compute {
-            let problem = format!("it is a {} shader", self.shader.entry.stage);
-            return Err(layout::misfit(self.shader.entry, self.name, problem));
-        }
-        let limit = u64::from(device.limits().max_compute_workgroups_per_dimension);
-        for count in self.workgroups {
-            device.within(
+    /// Fails when the entry point is none of a dispatch, or there are more workgroups along an axis than a machine takes.
+    ///
+    /// # Errors
+    /// [`Error::Interface`], [`Error::TooLarge`].
+    pub fn check(&self, most_workgroups: u32) -> Result<(), Error> {
+        self.shader.expect(Stage::Compute)?;
+        self.workgroups.into_iter().try_for_each(|count| {
+            within(
                 self.name,
                 "the number of workgroups along an axis",
                 u64::from(count),
-                limit,
-            )?;
-        }
+                u64::from(most_workgroups),
+            )
+        })
+    }
+
+    pub(crate) fn prepare(&self, device: &Device) -> Result<PreparedCompute, Error> {
+        self.check(device.limits().max_compute_workgroups_per_dimension)?;
         let bound = binding::bind(device, self.name, &[&self.shader], &self.resources)?;
         let stage = pipeline::stage(device, self.name, &self.shader)?;
         let pipeline = pipeline::compute(device, self.name, stage, &bound.layout)?;

@@ -126,19 +126,6 @@ impl Device {
         })
     }
 
-    /// Fails when a value is beyond a limit.
-    pub(crate) fn within(&self, job: &str, what: &'static str, given: u64, limit: u64) -> Result<(), Error> {
-        if given <= limit {
-            return Ok(());
-        }
-        Err(Error::TooLarge {
-            job: job.to_owned(),
-            what,
-            given,
-            limit,
-        })
-    }
-
     /// Runs `work` so that every error of the device inside becomes an [`Error`] of this job. The device's own word goes
     /// before what `work` returns, since that is usually a consequence of it.
     pub(crate) fn scoped<T>(&self, job: &str, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {

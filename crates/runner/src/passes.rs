@@ -4,6 +4,7 @@ use crate::binding::{self, Bound};
 use crate::device::Device;
 use crate::error::Error;
 use crate::layout::{self, Located};
+use crate::limits::within;
 use crate::mesh::Mesh;
 use crate::picture::Picture;
 use crate::pipeline::{self, RenderKey};
@@ -61,15 +62,15 @@ impl RenderJob<'_> {
         let targets = self.targets.len() as u64;
         let bytes: u64 = self.targets.iter().map(|target| target.format.pixel_cost()).sum();
         let side = u64::from(limits.max_texture_dimension_2d);
-        device.within(self.name, "the picture's side", u64::from(longer), side)?;
-        device.within(
+        within(self.name, "the picture's side", u64::from(longer), side)?;
+        within(
             self.name,
             "the number of targets",
             targets,
             u64::from(limits.max_color_attachments),
         )?;
         let most = u64::from(limits.max_color_attachment_bytes_per_sample);
-        device.within(
+        within(
             self.name,
             "the size of a pixel in all targets, in bytes,",
             bytes,

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use crate::device::Device;
 use crate::error::Error;
+use crate::limits::within;
 
 /// How long the word that a buffer is mapped may come after the work is done: it is said by whichever thread polls the
 /// device, which may be another one, in the middle of it. Only a thread that is stuck takes this long.
@@ -77,7 +78,7 @@ pub(crate) fn buffers(
         device.wait(job, submission.clone())?;
         return Ok((Vec::new(), submission));
     }
-    device.within(
+    within(
         job,
         "the size of all outputs in bytes",
         total,

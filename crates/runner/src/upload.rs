@@ -2,6 +2,7 @@
 
 use crate::device::Device;
 use crate::error::Error;
+use crate::limits::within;
 use crate::texture::{Filter, SamplerSettings, TextureData};
 
 /// A buffer with these bytes (a multiple of four), which can be read back.
@@ -30,7 +31,7 @@ pub(crate) fn texture(
         device.require(job, feature, "textures of 16-bit normalised integers")?;
     }
     let limit = u64::from(device.limits().max_texture_dimension_2d);
-    device.within(
+    within(
         job,
         "a texture's side",
         u64::from(data.width.max(data.height)),

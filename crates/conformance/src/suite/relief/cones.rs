@@ -7,7 +7,7 @@ use bossage_assets::HeightField;
 use bossage_reference::cone_step::CLOSE_HEIGHT;
 use bossage_reference::relief_ray::Status;
 use bossage_reference::relief_truth::{first_hit_lifted, height_at};
-use bossage_shaders::{HeightRead, Kernel, ReliefSearch, ReliefTechnique};
+use bossage_shaders::{Kernel, ReliefSearch, ReliefTechnique};
 use glam::DVec2;
 
 use super::beside::Beside;
@@ -20,9 +20,9 @@ use crate::bench::Bench;
 use crate::case::{Case, Outcome};
 use crate::case_id::CaseId;
 use crate::compare::Comparison;
+use crate::dispatch::Filtering;
 use crate::generate::random::stream;
 use crate::module::Module;
-use crate::route::Route;
 
 /// Views of any azimuth at each angle, in each setting.
 const VIEWS: usize = 20;
@@ -65,7 +65,7 @@ impl ConeCase {
 
     pub(super) fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let (name, texture) = (self.id.to_string(), setting::texture(&self.field));
-        let ideal = bench.route == Route::Embedded || self.search.heights == HeightRead::FourLoads;
+        let ideal = setting::filtering(bench.route, self.search.heights) == Filtering::Ideal;
         let mut rng = stream(&name, 1);
         let (mut rays, mut open, mut met) = (0, 0, 0);
         for setting in setting::of(self.search.technique) {

@@ -13,7 +13,7 @@ use bossage_reference::relief_ray::{HitRecord, Layer, Ray, Status};
 use bossage_reference::relief_truth::{height_at, trace};
 use bossage_reference::{self_shadow, soft_shadow};
 use bossage_runner::{BufferData, Resources, TextureData};
-use bossage_shaders::{HeightRead, Kernel, LightTechnique, ReliefLight};
+use bossage_shaders::{Kernel, LightTechnique, ReliefLight};
 use glam::{DVec2, DVec3};
 use rand::RngExt;
 
@@ -29,7 +29,7 @@ use crate::dispatch::{Dispatch, Filtering, Kept, float_bounds};
 use crate::generate::random::stream;
 use crate::module::Module;
 use crate::oracle;
-use crate::route::{Prepared, Route};
+use crate::route::Prepared;
 use crate::tolerance::UNDECIDED_LIMIT;
 
 /// Views of any azimuth at each angle, for each light.
@@ -137,13 +137,8 @@ impl LightCase {
     pub(super) fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let module = bench.module(&Module::Kernel(Kernel::ReliefLight(self.light)))?;
         let texture = setting::texture(&self.field);
-        let ideal = bench.route == Route::Embedded || self.light.heights == HeightRead::FourLoads;
-        let filtering = if ideal {
-            Filtering::Ideal
-        } else {
-            Filtering::OfHardware
-        };
-        let parts = self.expected[usize::from(ideal)]
+        let filtering = setting::filtering(bench.route, self.light.heights);
+        let parts = self.expected[usize::from(filtering == Filtering::Ideal)]
             .for_text(module.text(), || self.parts(&module, &texture, filtering))?;
         let name = self.id.to_string();
         let (mut comparison, mut records, mut touchy) = (Comparison::default(), 0, 0);

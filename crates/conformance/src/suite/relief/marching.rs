@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use bossage_assets::HeightField;
 use bossage_bounds::{Accept, Scalar};
 use bossage_runner::TextureData;
-use bossage_shaders::{HeightRead, Kernel, ReliefSearch, ReliefTechnique};
+use bossage_shaders::{Kernel, ReliefSearch, ReliefTechnique};
 use rayon::prelude::*;
 
 use super::beside::Beside;
@@ -28,7 +28,7 @@ use crate::dispatch::{Filtering, Kept};
 use crate::generate::random::stream;
 use crate::module::Module;
 use crate::oracle;
-use crate::route::{Prepared, Route};
+use crate::route::Prepared;
 use crate::suite::probe::form_of;
 use crate::tolerance::UNDECIDED_LIMIT;
 
@@ -81,14 +81,8 @@ impl MarchCase {
     pub(super) fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let module = bench.module(&Module::Kernel(Kernel::ReliefHits(self.search)))?;
         let texture = setting::texture(&self.field);
-        // No driver's sampler is between the shader and the texels of the evaluator.
-        let ideal = bench.route == Route::Embedded || self.search.heights == HeightRead::FourLoads;
-        let filtering = if ideal {
-            Filtering::Ideal
-        } else {
-            Filtering::OfHardware
-        };
-        let parts = self.expected[usize::from(ideal)]
+        let filtering = setting::filtering(bench.route, self.search.heights);
+        let parts = self.expected[usize::from(filtering == Filtering::Ideal)]
             .for_text(module.text(), || self.parts(&module, &texture, filtering))?;
         let name = self.id.to_string();
         let (mut comparison, mut rays, mut touchy) = (Comparison::default(), 0, 0);

@@ -3,17 +3,27 @@
 use bossage_assets::{EdgeMode, HeightField};
 use bossage_reference::relief_ray::Layer;
 use bossage_runner::{AddressMode, BufferData, Filter, Resources, SamplerSettings, TextureData};
-use bossage_shaders::{Kernel, ReliefSearch, ReliefTechnique};
+use bossage_shaders::{HeightRead, Kernel, ReliefSearch, ReliefTechnique};
 
 use super::beside::Beside;
 use super::views::View;
-use crate::dispatch::Dispatch;
+use crate::dispatch::{Dispatch, Filtering};
+use crate::route::Route;
 
 /// What the kernel writes.
 pub(super) const HITS: &str = "hits";
 
 /// Floats of a hit record, the status in the last.
 pub(super) const HIT_FLOATS: usize = 4;
+
+/// Whose filter is between the shader and the heights: none but the exact one where the evaluator reads the texels, or the shader
+/// itself mixes four.
+pub(super) fn filtering(route: Route, heights: HeightRead) -> Filtering {
+    match (route, heights) {
+        (Route::Embedded, _) | (_, HeightRead::FourLoads) => Filtering::Ideal,
+        (_, HeightRead::Filtered) => Filtering::OfHardware,
+    }
+}
 
 /// The uniform of one dispatch.
 #[derive(Clone, Copy, Debug, PartialEq)]
