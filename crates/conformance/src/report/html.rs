@@ -6,7 +6,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::matrix::{Cell, Matrix, Row};
+use super::matrix::{Cell, Column, Matrix, Row};
 use super::page::Page;
 use super::{CaseResult, Report};
 use crate::verdict::Verdict;
@@ -50,7 +50,7 @@ fn summary(report: &Report) -> Markup {
     } else {
         "This run did not pass."
     };
-    let share = 100.0 * (totals.undecided + totals.forked) as f64 / totals.outputs.max(1) as f64;
+    let share = 100.0 * report.undecided().share();
     html! {
         section aria-labelledby="summary" {
             h2 id="summary" { "Summary" }
@@ -61,7 +61,7 @@ fn summary(report: &Report) -> Markup {
                 }
                 div { dt { "inputs" } dd { (grouped(totals.inputs)) } }
                 div { dt { "outputs compared" } dd { (grouped(totals.outputs)) } }
-                div { dt { "undecided" } dd { (format!("{share:.3} %")) } }
+                div { dt { "undecided, hardened forms" } dd { (format!("{share:.2} %")) } }
             }
             p { "An output passes when it lies in the interval that the accuracy rules of WGSL allow at its input. " em { "Undecided" }
                 " outputs are those on which the rules say nothing, or for which a comparison allows two results." }
@@ -75,50 +75,56 @@ fn matrix(report: &Report) -> Markup {
         section aria-labelledby="matrix" {
             h2 id="matrix" { "Techniques" }
             div class="scroll" tabindex="0" role="region" aria-labelledby="matrix" {
-                table {
-                    caption { "Gravest verdict, cases and worst output of each technique on each route and adapter" }
+                table class="matrix" {
+                    caption { "Gravest verdict, cases and worst output of each technique on each route and adapter; a cell opens to say where that is" }
                     thead { tr {
                         th scope="col" { "technique" }
                         th scope="col" { "form" }
                         @for column in &matrix.columns {
-                            th scope="col" { (column.route) br; small {
-                                (column.adapter.as_deref().unwrap_or("not run"))
-                                @if column.adapter.is_some() && column.not_run.is_some() { ", not run" }
-                            } }
+                            th scope="col" { (column.route) @if let Some(adapter) = &column.adapter { br; small { (adapter) } }
+                                @if let Some(reason) = &column.not_run { details { summary { "not run" } small { (reason) } } } }
                         }
                     } }
-                    tbody { @for row in &matrix.rows { (matrix_row(row)) } }
+                    tbody { @for row in &matrix.rows { (matrix_row(row, &matrix.columns)) } }
                 }
             }
         }
     }
 }
 
-fn matrix_row(row: &Row) -> Markup {
+fn matrix_row(row: &Row, columns: &[Column]) -> Markup {
     html! {
         tr {
             th scope="row" { a href=(format!("#{}", anchor(&row.technique, row.form.as_deref()))) { (row.technique) } }
             td { (row.form.as_deref().unwrap_or("one form")) }
-            @for one in &row.cells { (cell(one)) }
+            @for (one, column) in row.cells.iter().zip(columns) { (cell(one, column)) }
         }
     }
 }
 
-fn cell(cell: &Cell) -> Markup {
+fn cell(cell: &Cell, column: &Column) -> Markup {
     if cell.cases == 0 {
-        return html! { td class="skip" { "not run" @if let Some(reason) = &cell.reason { br; small { (reason) } } } };
+        // A whole column that was not run has its reason at its head.
+        let own = cell.reason.as_ref().filter(|_| column.not_run.is_none());
+        return html! { td class="skip" { "not run" @if let Some(reason) = own { br; small { (reason) } } } };
     }
+    let worst = match cell.worst_ulp {
+        Some(ulp) => format!("{ulp:.3} ULP"),
+        None => "its worst".to_owned(),
+    };
     html! {
         td class=(cell.verdict.as_str()) {
-            strong { (cell.verdict.label()) } " "
-            (cell.cases) " cases, " (grouped(cell.outputs)) " outputs"
-            @if cell.known_defects > 0 { ", " (cell.known_defects) " known defects" }
-            @if let Some(share) = cell.worst_of_bound {
-                br; small { "worst " (percent(share)) " of the allowed error"
-                    @if let Some(ulp) = cell.worst_ulp { ", " (format!("{ulp:.3}")) " ULP" } }
-            }
-            @if let Some(place) = &cell.place {
-                br; small { "in " code { (place.case) } ", output " (place.output) " of " code { (place.input) } }
+            strong { (cell.verdict.label()) }
+            details {
+                summary { (worst) }
+                small {
+                    (cell.cases) " cases, " (grouped(cell.outputs)) " outputs"
+                    @if cell.known_defects > 0 { ", " (cell.known_defects) " known defects" }
+                    @if let Some(share) = cell.worst_of_bound { "; worst " (percent(share)) " of the allowed error" }
+                    @if let Some(place) = &cell.place {
+                        " in " code { (place.case) } ", output " (place.output) " of " code { (place.input) }
+                    }
+                }
             }
         }
     }

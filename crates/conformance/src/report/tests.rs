@@ -211,6 +211,10 @@ fn html_escapes_names_and_leaves_no_cell_empty() {
         page.contains("not run"),
         "the route on which dot3 did not run says so"
     );
+    assert!(
+        page.matches("get glslang").count() < 3,
+        "the reason of a column that did not run stands at its head"
+    );
     assert!(!page.contains("<td></td>") && !page.contains("<th scope=\"col\"></th>"));
     assert!(
         page.contains("bossage conform"),
@@ -229,7 +233,7 @@ fn html_is_self_contained_and_accessible() {
     }
     assert!(page.starts_with("<!DOCTYPE html><html lang=\"en\">"));
     assert!(page.contains("color-scheme"));
-    assert_eq!(page.matches("<table>").count(), page.matches("<caption>").count());
+    assert_eq!(page.matches("<table").count(), page.matches("<caption>").count());
     assert!(page.contains("<th scope=\"row\">") && page.contains("<th scope=\"col\">"));
     // Every link leads somewhere on the page.
     for link in page.split("href=\"#").skip(1) {
