@@ -7,12 +7,13 @@
 
 use std::collections::BTreeMap;
 
-use naga::BuiltIn;
 use naga::back::hlsl;
+use naga::{BuiltIn, Expression};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::emit::hlsl_idioms::Rewrite;
 use crate::emit::hlsl_registers::{self, Register, Registers};
+use crate::emit::sample_arguments::{self, HLSL_OFFSETS};
 use crate::emit::{Contents, Job, Placement, Slot, Written};
 use crate::manifest::{HlslSlot, Kind};
 use crate::options::BoundsChecks;
@@ -35,7 +36,7 @@ pub(super) fn write(job: &Job<'_>) -> Result<Written, Diagnostic> {
         Some(Err(error)) => return Err(job.failed(&error)),
         None => return Err(job.refuse(Code::Internal, "naga wrote no entry point", None)),
     };
-    let text = rewrite(job, &registers, raw)?;
+    let text = with_offsets(job, rewrite(job, &registers, raw)?)?;
     let placement = place(job, &registers, &text)?;
     Ok(Written {
         contents: Contents::Text(text),
@@ -138,6 +139,18 @@ fn rewrite(job: &Job<'_>, registers: &Registers, raw: String) -> Result<String, 
     };
     rewrite.apply(&raw).map_err(|what| {
         let message = format!("HLSL: naga's sampler code is not as known: {what}");
+        job.refuse(Code::Internal, message, None)
+    })
+}
+
+/// Offsets of the texture's own dimensions.
+fn with_offsets(job: &Job<'_>, text: String) -> Result<String, Diagnostic> {
+    let has_offset = |sample: &Expression| matches!(sample, Expression::ImageSample { offset: Some(_), .. });
+    if !sample_arguments::occurs(job.unit, has_offset) {
+        return Ok(text);
+    }
+    HLSL_OFFSETS.apply(&text).map_err(|what| {
+        let message = format!("HLSL: naga's code for offsets is not as known: {what}");
         job.refuse(Code::Internal, message, None)
     })
 }

@@ -27,6 +27,7 @@ mod hlsl;
 mod hlsl_idioms;
 mod hlsl_registers;
 mod msl;
+mod sample_arguments;
 mod spirv;
 mod support;
 mod wgsl;

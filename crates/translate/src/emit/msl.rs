@@ -8,8 +8,10 @@
 use std::collections::BTreeMap;
 
 use naga::back::msl;
+use naga::{Expression, SampleLevel};
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::emit::sample_arguments::{self, MSL_GRADIENTS};
 use crate::emit::{Contents, Job, Placement, Slot, Written};
 use crate::manifest::{BufferSizes, Kind, MslSlot};
 use crate::resources::{Resource, is_runtime_sized};
@@ -86,9 +88,29 @@ pub(super) fn write(job: &Job<'_>) -> Result<Written, Diagnostic> {
         None => return Err(job.refuse(Code::Internal, "naga wrote no entry point", None)),
     };
     Ok(Written {
-        contents: Contents::Text(text),
+        contents: Contents::Text(with_gradients(job, text)?),
         entry_point,
         placement,
+    })
+}
+
+/// Explicit gradients of the texture's own dimensions.
+fn with_gradients(job: &Job<'_>, text: String) -> Result<String, Diagnostic> {
+    let has_gradient = |sample: &Expression| {
+        matches!(
+            sample,
+            Expression::ImageSample {
+                level: SampleLevel::Gradient { .. },
+                ..
+            }
+        )
+    };
+    if !sample_arguments::occurs(job.unit, has_gradient) {
+        return Ok(text);
+    }
+    MSL_GRADIENTS.apply(&text).map_err(|what| {
+        let message = format!("MSL: naga's code for gradients is not as known: {what}");
+        job.refuse(Code::Internal, message, None)
     })
 }
 

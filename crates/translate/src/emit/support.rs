@@ -9,7 +9,8 @@
 //!   that is written `vec2i(1)` (repaired in [`crate::repairs`]);
 //! - SPIR-V: sample masks that are no arrays, subgroup operations below 1.3;
 //! - HLSL: 16- and 64-bit types and wave operations in shader models without them, early depth tests dropped;
-//! - MSL: early depth tests dropped;
+//! - HLSL: offsets into textures of three dimensions written as two (repaired in [`super::sample_arguments`]);
+//! - MSL: early depth tests dropped; gradients of cubes and volumes written as two-dimensional (repaired there too);
 //! - GLSL: sample masks that are no arrays, depth textures sampled without comparison, `textureGather`, the primitive index
 //!   and barycentric coordinates in versions without them, arrays of arrays in 330 (by a
 //!   misspelt extension), 16-bit integers and lone subgroup values without their extension, extensions that only one vendor has (storage formats in ES) or no ES 3.0 compiler knows (clip distances);
