@@ -8,15 +8,22 @@
 //! An ULP of a position is that of the greatest coordinate on the ray: the sum uv_top + t·delta is rounded to it.
 //!
 //! Most rays are told from grazing ones cheaply and safely: moving a ray by a distance changes the height over the surface by at most
-//! that distance times the steepest slope of the map, so a ray that meets the surface lifted and lowered by that much at nearly the
-//! same place does not graze.
+//! that distance times the steepest slope around, so a ray that meets the surface lifted and lowered by that much at nearly the
+//! same place does not graze ([`slopes`]). [`span`] asks the same of a whole box of rays.
 
 use bossage_assets::{EdgeMode, HeightField};
 use glam::DVec2;
 
 use crate::relief_ray::Ray;
 use crate::relief_truth::cells::sides;
-use crate::relief_truth::{Hit, first_hit, first_hit_lifted};
+use crate::relief_truth::{Hit, first_hit, first_hit_over};
+
+mod slopes;
+mod span;
+
+use slopes::Slopes;
+pub use slopes::steepest;
+pub use span::Span;
 
 /// By how many f32 ULPs a ray may be moved.
 pub const FEW_ULPS: u32 = 4;
@@ -24,13 +31,12 @@ pub const FEW_ULPS: u32 = 4;
 /// Hits nearer than this count as the same, in texels.
 pub const TOLERANCE_TEXELS: f64 = 0.01;
 
-/// A height field whose steepest slopes are known.
+/// A height field whose slopes are known.
 #[derive(Clone, Debug)]
 pub struct Surface<'a> {
     field: &'a HeightField,
     edge: EdgeMode,
-    /// The greatest difference between neighbouring texels along each axis.
-    steepest: DVec2,
+    slopes: Slopes,
 }
 
 /// The hits that count for one ray.
@@ -41,17 +47,6 @@ pub struct Answers {
     /// The hits of the rays beside it that lie elsewhere; empty unless the ray grazes.
     pub others: Vec<Hit>,
     sides: DVec2,
-}
-
-/// Where the answers to a box of rays lie.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Span {
-    /// The least uv, not wrapped.
-    pub low: DVec2,
-    /// The greatest uv.
-    pub high: DVec2,
-    /// How far the first and the last hit along the ray in the middle are apart, in texels: much, where a ray of the box may graze.
-    pub texels: f64,
 }
 
 impl Answers {
@@ -85,32 +80,14 @@ impl Answers {
 }
 
 impl<'a> Surface<'a> {
-    /// Looks at every texel once.
+    /// Looks at every cell, and at those around it.
     #[must_use]
     pub fn new(field: &'a HeightField, edge: EdgeMode) -> Self {
-        let (w, h) = (i64::from(field.width), i64::from(field.height));
-        let texel = |x: i64, y: i64| {
-            f64::from(field.texel(edge.resolve(x, field.width), edge.resolve(y, field.height)))
-        };
-        // One texel beyond the border on either side: there is the step over the seam.
-        let steps = (-1..=h).flat_map(|y| (-1..=w).map(move |x| (x, y)));
-        let step = |(x, y): (i64, i64)| {
-            DVec2::new(
-                (texel(x + 1, y) - texel(x, y)).abs(),
-                (texel(x, y + 1) - texel(x, y)).abs(),
-            )
-        };
         Self {
             field,
             edge,
-            steepest: steps.map(step).fold(DVec2::ZERO, DVec2::max),
+            slopes: Slopes::new(field, edge),
         }
-    }
-
-    /// The greatest difference between neighbouring texels along each axis.
-    #[must_use]
-    pub fn steepest(&self) -> DVec2 {
-        self.steepest
     }
 
     /// All hits that count for a ray.
@@ -133,28 +110,13 @@ impl<'a> Surface<'a> {
         answers
     }
 
-    /// Where all answers lie to all rays that enter and travel within so much of this one per axis, in UV, each within the tolerance.
-    ///
-    /// A ray of the box is nowhere further from this one than both add up to, so its surface is within what the steepest slope makes
-    /// of that: it meets nothing before this ray meets the surface lifted by as much, and has met it where this one meets it lowered.
-    #[must_use]
-    pub fn span(&self, ray: &Ray, entry: DVec2, travel: DVec2) -> Span {
-        let (position, direction) = ulps(ray);
-        // Twice, since a ray of the box may lie beyond the next power of two.
-        let moved = entry + travel + 2.0 * f64::from(FEW_ULPS) * (position + direction);
-        let [first, last] = self.ends(ray, moved).map(|t| ray.at(t));
-        let margin = moved + TOLERANCE_TEXELS / sides(self.field);
-        Span {
-            low: first.min(last) - margin,
-            high: first.max(last) + margin,
-            texels: ((last - first) * sides(self.field)).length(),
-        }
-    }
-
     /// The least and the greatest t at which a ray that is nowhere further away than `moved`, in UV, can meet the surface.
     fn ends(&self, ray: &Ray, moved: DVec2) -> [f64; 2] {
-        let lift = (moved * sides(self.field)).dot(self.steepest);
-        [lift, -lift].map(|lift| first_hit_lifted(self.field, self.edge, ray, lift).t)
+        let moved_texels = moved * sides(self.field);
+        [1.0, -1.0].map(|sign| {
+            let lift = |cell| sign * self.slopes.change(cell, moved_texels);
+            first_hit_over(self.field, self.edge, ray, lift).t
+        })
     }
 
     /// False only where no ray beside this one meets the surface elsewhere.
@@ -272,58 +234,5 @@ mod tests {
         }
         assert_eq!(ulp(0.0), f64::from(f32::from_bits(1)));
         assert_eq!(FEW_ULPS, 4);
-    }
-
-    /// Rays of a box around one: its corners, its middle, and places between.
-    fn of_box(ray: &Ray, entry: DVec2, travel: DVec2) -> impl Iterator<Item = Ray> {
-        let ways = [-1.0, -0.3, 0.0, 0.6, 1.0];
-        let two = move || ways.into_iter().flat_map(move |x| ways.map(|y| DVec2::new(x, y)));
-        let ray = *ray;
-        two().flat_map(move |a| {
-            two().map(move |b| Ray {
-                uv_top: ray.uv_top + a * entry,
-                delta: ray.delta + b * travel,
-            })
-        })
-    }
-
-    /// The rays of a box whose answers lie outside of a span.
-    fn outside(surface: &Surface<'_>, ray: &Ray, entry: DVec2, travel: DVec2, span: &super::Span) -> usize {
-        let beyond = |ray: &Ray| {
-            let uv = surface.answers(ray).truth.uv;
-            uv.cmplt(span.low).any() || uv.cmpgt(span.high).any()
-        };
-        of_box(ray, entry, travel).filter(beyond).count()
-    }
-
-    #[test]
-    fn a_span_holds_the_hits_of_every_ray_of_its_box_and_that_of_a_smaller_box_does_not() {
-        let (mut wide, mut missed) = (0, 0);
-        for (top, edge) in [
-            (0.9, EdgeMode::Wrap),
-            (0.5, EdgeMode::Mirror),
-            (1.0, EdgeMode::Clamp),
-        ] {
-            let field = wall(top);
-            let surface = Surface::new(&field, edge);
-            for step in 0..24 {
-                let ray = Ray {
-                    uv_top: DVec2::new(0.013 * f64::from(step), 0.4),
-                    delta: DVec2::new(0.35, 0.02 * f64::from(step % 5)),
-                };
-                let (entry, travel) = (DVec2::new(0.004, 0.002), DVec2::new(0.003, 0.001));
-                let span = surface.span(&ray, entry, travel);
-                assert_eq!(
-                    outside(&surface, &ray, entry, travel, &span),
-                    0,
-                    "{ray:?} {span:?}"
-                );
-                let smaller = surface.span(&ray, 0.25 * entry, 0.25 * travel);
-                missed += outside(&surface, &ray, entry, travel, &smaller);
-                wide += usize::from(span.texels > 5.0);
-            }
-        }
-        assert!(missed > 0, "smaller boxes hold all");
-        assert!(wide > 0, "no box of rays grazes the wall");
     }
 }

@@ -57,6 +57,16 @@ pub fn first_hit(field: &HeightField, edge: EdgeMode, ray: &Ray) -> Hit {
 /// The first meeting of the ray and the bilinear surface lifted by a height.
 #[must_use]
 pub fn first_hit_lifted(field: &HeightField, edge: EdgeMode, ray: &Ray, lift: f64) -> Hit {
+    first_hit_over(field, edge, ray, |_| lift)
+}
+
+/// The first meeting of the ray and the bilinear surface, each cell of it lifted by a height of its own.
+pub(crate) fn first_hit_over(
+    field: &HeightField,
+    edge: EdgeMode,
+    ray: &Ray,
+    lift: impl Fn([i64; 2]) -> f64,
+) -> Hit {
     let mut walk = Walk::new(field, ray, 1.0);
     let mut clearance = f64::INFINITY;
     let finish = |walk: &Walk, status, t: f64, clearance| Hit {
@@ -68,7 +78,7 @@ pub fn first_hit_lifted(field: &HeightField, edge: EdgeMode, ray: &Ray, lift: f6
     };
     loop {
         let length = walk.exit() - walk.t;
-        let above = walk.quadratic(field, edge, 1.0 - lift, -1.0);
+        let above = walk.quadratic(field, edge, 1.0 - lift(walk.cell), -1.0);
         match above.first_root(length) {
             Some(step) => return finish(&walk, Status::Hit, (walk.t + step).min(1.0), clearance),
             None => clearance = clearance.min(above.crest_gap(length)),

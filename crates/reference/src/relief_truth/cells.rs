@@ -116,6 +116,14 @@ impl Patch {
         }
     }
 
+    /// The least and the greatest slope along x, and those along y, in heights a texel.
+    pub(crate) fn slopes(&self) -> [[f64; 2]; 2] {
+        [self.along_x, self.along_y].map(|along| {
+            let opposite = along + self.twist;
+            [along.min(opposite), along.max(opposite)]
+        })
+    }
+
     pub(crate) fn height(&self, f: DVec2) -> f64 {
         self.corner + self.along_x * f.x + self.along_y * f.y + self.twist * f.x * f.y
     }

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use bossage_assets::HeightField;
-use bossage_reference::relief_grazing::Surface;
+use bossage_reference::relief_grazing::steepest;
 use bossage_reference::relief_ray::{HitRecord, Layer, Ray, Status};
 use bossage_reference::relief_truth::{height_at, trace};
 use bossage_reference::{self_shadow, soft_shadow};
@@ -263,7 +263,7 @@ impl LightCase {
     /// along a surface so steep. With the sample's own height that is 3 + slope allowances, and a lift counts twice.
     fn lift(&self, part: &Part, hit: &[u32; 4], allowance: f64) -> f64 {
         let sides = DVec2::new(f64::from(self.field.width), f64::from(self.field.height));
-        let steepest = Surface::new(&self.field, part.setting.edge).steepest();
+        let steepest = steepest(&self.field, part.setting.edge);
         let slope = (self.ray(part, hit).delta * sides).abs().dot(steepest);
         allowance * (3.0 + slope) / 2.0
     }

@@ -2,7 +2,7 @@
 
 use bossage_assets::{EdgeMode, HeightField};
 use bossage_bounds::SUBTEXEL;
-use bossage_reference::relief_grazing::Surface;
+use bossage_reference::relief_grazing::steepest;
 use bossage_reference::relief_ray::{Entry, HitRecord, Ray};
 use bossage_reference::relief_truth::{height_at, trace};
 use bossage_reference::steep_parallax::first_below;
@@ -121,7 +121,7 @@ impl Search<'_> {
         match self.technique {
             ReliefTechnique::ConeStep | ReliefTechnique::RelaxedConeStep => {
                 let sides = DVec2::new(f64::from(self.field.width), f64::from(self.field.height));
-                let steepest = Surface::new(self.field, self.setting.edge).steepest();
+                let steepest = steepest(self.field, self.setting.edge);
                 let slope = (ray.delta * sides).abs().dot(steepest);
                 once * (2.0 + slope).powi(self.setting.steps as i32)
             }
@@ -168,7 +168,7 @@ pub(super) fn height_allowance(field: &HeightField, edge: EdgeMode, ray: &Ray, i
     // A place is made by four roundings of numbers up to the furthest, in texels.
     let rounding = 4.0 * f64::from(f32::EPSILON) * furthest * side;
     let subtexel = if ideal { 0.0 } else { SUBTEXEL };
-    let steepest = Surface::new(field, edge).steepest().element_sum();
+    let steepest = steepest(field, edge).element_sum();
     // Heights and t are numbers up to 1, of a few roundings each.
     (rounding + subtexel) * steepest + 8.0 * f64::from(f32::EPSILON)
 }

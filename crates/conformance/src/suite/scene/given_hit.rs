@@ -5,12 +5,12 @@
 //! a variant of the same module to which the hit is given, twice: first for the interval of the ray that the walk is handed, then with
 //! all hits given that the rays of this interval may have.
 //!
-//! The colour is then that of any hit of any such ray. Where these lie further apart than a hit may be off, as where rays graze a
-//! crest, the outputs join several results, and count as undecided.
+//! The colour is then that of any hit of any such ray. Where these do not lie in one piece, as where some of the rays graze a crest, the
+//! outputs join several results, and count as undecided.
 
 use bossage_assets::{EdgeMode, HeightField};
 use bossage_bounds::{Flags, Interval};
-use bossage_reference::relief_grazing::{Span, Surface, TOLERANCE_TEXELS};
+use bossage_reference::relief_grazing::{Span, Surface};
 use bossage_reference::relief_ray::Ray;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -24,7 +24,7 @@ const HIT: &str = "hit_uv";
 /// Where it writes its ray.
 const RAY: u32 = 1;
 
-/// The intervals, and of which invocations the hits lie apart.
+/// The intervals, and of which invocations the hits may lie in several pieces.
 pub(super) fn intervals(
     stage: &Stage<'_>,
     inputs: &Inputs,
@@ -46,8 +46,8 @@ pub(super) fn intervals(
         })
     });
     let outputs = stage.fragments(&inputs.clone().with_intervals(HIT, hits))?;
-    let apart = |span: &Option<Span>| span.is_some_and(|span| span.texels > TOLERANCE_TEXELS);
-    Ok((outputs, spans.iter().map(apart).collect()))
+    let in_pieces = |span: &Option<Span>| span.is_some_and(|span| !span.in_one_piece);
+    Ok((outputs, spans.iter().map(in_pieces).collect()))
 }
 
 /// Where the hits of the rays of a box lie; none where the ray is open.
