@@ -7,15 +7,39 @@ use std::time::Duration;
 
 use crate::external::{Limits, cache, cache_folder, clang, run};
 
+macro_rules! headers {
+    ($($path:literal)*) => {
+        &[$(($path, include_str!(concat!("../../tools/metal/", $path)))),*]
+    };
+}
+
 /// Path in the folder, and contents.
-const HEADERS: [(&str, &str); 3] = [
-    ("metal_stdlib", include_str!("../../tools/metal/metal_stdlib")),
-    (
-        "msl_interface.h",
-        include_str!("../../tools/metal/msl_interface.h"),
-    ),
-    ("simd/simd.h", include_str!("../../tools/metal/simd/simd.h")),
-];
+const HEADERS: &[(&str, &str)] = headers! {
+    "metal_stdlib"
+    "msl_components.h"
+    "msl_conversions.h"
+    "msl_detail.h"
+    "msl_faces.h"
+    "msl_filtering.h"
+    "msl_fragments.h"
+    "msl_images.h"
+    "msl_integers.h"
+    "msl_interface.h"
+    "msl_math.h"
+    "msl_matrices.h"
+    "msl_names.h"
+    "msl_packed.h"
+    "msl_packing.h"
+    "msl_samplers.h"
+    "msl_scalars.h"
+    "msl_texels.h"
+    "msl_textures.h"
+    "msl_threads.h"
+    "msl_traits.h"
+    "msl_vectors.h"
+    "msl_words.h"
+    "simd/simd.h"
+};
 
 /// What a compiler may take for the library or a program.
 pub(super) const LIMITS: Limits = Limits {
@@ -115,6 +139,8 @@ fn sum_of(path: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::*;
 
     #[test]
@@ -131,12 +157,36 @@ mod tests {
         assert!(!is_whole(&path));
     }
 
+    /// The files that a header includes, and theirs.
+    fn included(name: &str, found: &mut BTreeSet<String>) {
+        let header = HEADERS.iter().find(|(known, _)| *known == name);
+        let (_, text) = header.unwrap_or_else(|| panic!("{name} is not listed"));
+        if found.insert(name.to_owned()) {
+            for line in text.lines().filter_map(|line| line.strip_prefix("#include \"")) {
+                included(line.trim_end_matches('"'), found);
+            }
+        }
+    }
+
+    #[test]
+    fn every_file_is_listed_and_included() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tools/metal");
+        let names = std::fs::read_dir(folder).unwrap();
+        let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let files: BTreeSet<String> = names.filter(|name| name != "simd").collect();
+        let mut found = BTreeSet::new();
+        included("metal_stdlib", &mut found);
+        assert_eq!(found, files);
+    }
+
     #[test]
     fn headers_that_somebody_changed_are_written_anew() {
         let folder = headers().unwrap();
-        let path = folder.join("simd/simd.h");
-        assert_eq!(std::fs::read_to_string(&path).unwrap(), HEADERS[2].1);
-        keep(&path, HEADERS[2].1.as_bytes()).unwrap();
+        for (name, text) in HEADERS {
+            let path = folder.join(name);
+            assert_eq!(std::fs::read_to_string(&path).unwrap(), *text, "{name}");
+            keep(&path, text.as_bytes()).unwrap();
+        }
         let other = tempfile::tempdir().unwrap();
         let own = other.path().join("a/b");
         keep(&own, b"one").unwrap();
