@@ -5,6 +5,7 @@
 
 #[path = "../../../runner/tests/adapter/blending.rs"]
 mod blending;
+#[path = "../shared/compiled.rs"]
 mod compiled;
 #[path = "../../../runner/tests/adapter/compute.rs"]
 mod compute;
@@ -12,9 +13,14 @@ mod compute;
 mod cubes;
 #[path = "../../../runner/tests/adapter/flat.rs"]
 mod flat;
+mod machine;
+#[path = "../shared/refused.rs"]
 mod refused;
 #[path = "../../../runner/tests/adapter/render.rs"]
 mod render;
+#[path = "../shared/support.rs"]
 mod support;
+#[path = "../shared/tested.rs"]
+mod tested;
 #[path = "../../../runner/tests/adapter/texels.rs"]
 mod texels;

@@ -1,22 +1,21 @@
 //! The machine under test, under the name that the tests of every machine ask for.
 
 use std::io::Write;
-use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use bossage_remote::{Kind, Limits, Remote};
-use bossage_runner::{AdapterInfo, AdapterSelector, Machine};
-use bossage_translate::external::{State, detect};
+use bossage_remote::{Limits, Remote};
+use bossage_runner::{AdapterInfo, AdapterSelector, DeviceKind, Machine};
 
 pub(crate) use crate::compiled::{Compiled, bits, compile};
+use crate::machine::{TESTED, program};
 
 static SKIPPED: AtomicUsize = AtomicUsize::new(0);
 
 /// The machine that all tests share, or `None` after saying that the test is skipped.
 ///
 /// # Panics
-/// Where there is none though `BOSSAGE_REQUIRE` lists `dawn`.
+/// Where there is none though `BOSSAGE_REQUIRE` lists it.
 pub(crate) fn device(test: &str) -> Option<&'static Remote> {
     static MACHINE: OnceLock<Result<Remote, String>> = OnceLock::new();
     match MACHINE.get_or_init(|| open(Limits::default())) {
@@ -29,47 +28,34 @@ pub(crate) fn device(test: &str) -> Option<&'static Remote> {
 }
 
 /// A machine of the test's own.
-pub(crate) fn own(test: &str, limits: Limits) -> Option<Remote> {
-    device(test)?;
-    Some(open(limits).expect("it opened before"))
-}
-
-fn open(limits: Limits) -> Result<Remote, String> {
-    Remote::open(Kind::Dawn, &program()?, &adapter()?, limits).map_err(|error| error.to_string())
-}
-
-pub(crate) fn program() -> Result<PathBuf, String> {
-    let found = detect().into_iter().find(|tool| tool.tool == "dawn");
-    let found = found.ok_or_else(|| "no such tool is known".to_owned())?;
-    match (found.state, found.path) {
-        (State::Enabled, Some(path)) => Ok(path),
-        _ => Err(found.reason.unwrap_or_default()),
-    }
+pub(crate) fn open(limits: Limits) -> Result<Remote, String> {
+    Remote::open(TESTED.kind, &program()?, &adapter()?, limits).map_err(|error| error.to_string())
 }
 
 fn adapter() -> Result<AdapterInfo, String> {
     let all = bossage_runner::adapters();
-    let swiftshader = AdapterSelector::named("swiftshader");
-    let found = all.into_iter().find(|info| swiftshader.matches(info));
-    found.ok_or_else(|| "SwiftShader is not here: ./x setup --full fetches it".to_owned())
+    let wanted = AdapterSelector::named(TESTED.adapter);
+    let found = all.into_iter().find(|info| wanted.matches(info));
+    found.ok_or_else(|| TESTED.without_adapter.to_owned())
 }
 
 /// Says that a test is skipped, past the capture of the test harness, which would hide it since the test passes.
 fn skip(test: &str, why: &str) {
+    let name = TESTED.name;
     let list = std::env::var("BOSSAGE_REQUIRE").unwrap_or_default();
-    let required = list.split(',').any(|name| name.trim() == "dawn");
-    assert!(!required, "dawn is required, but: {why}");
+    let required = list.split(',').any(|listed| listed.trim() == name);
+    assert!(!required, "{name} is required, but: {why}");
     let count = SKIPPED.fetch_add(1, Ordering::Relaxed) + 1;
     writeln!(std::io::stderr(), "SKIP {count}: {test}: {why}").expect("standard error can be written");
 }
 
-/// What a stand-in claims to be.
+/// An adapter that nobody has.
 pub(crate) fn stand_in() -> AdapterInfo {
     AdapterInfo {
         name: "none".to_owned(),
         driver: String::new(),
         driver_info: String::new(),
-        kind: bossage_runner::DeviceKind::Cpu,
+        kind: DeviceKind::Cpu,
         backend: "vulkan".to_owned(),
         llvm: None,
         cpu: String::new(),
