@@ -1,4 +1,5 @@
-//! Image files in: PNG (8 and 16 bit), JPEG, TGA, BMP, TIFF, OpenEXR and Radiance HDR, at the precision they hold.
+//! Image files in: PNG (8 and 16 bit), JPEG, TGA, BMP, TIFF, OpenEXR and Radiance HDR, at the precision they hold (floats of 64 bits
+//! become 32).
 //!
 //! Invariants of an [`Image`] from [`load_image`]: both sides in `1..=MAX_SIDE`; `texels` holds
 //! `width * height * channels` values; float values are finite. Row 0 is the first row of the file, which lies at
@@ -14,6 +15,8 @@ use std::path::{Path, PathBuf};
 use ::image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
 use crate::Error;
+
+mod grey_float;
 
 /// Longest side of an image that is read, in texels: what WebGPU devices with raised limits hold as a texture.
 pub const MAX_SIDE: u32 = 16_384;
@@ -246,11 +249,11 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Image, Error> {
     if let Some((width, height)) = sides_in_header(format, bytes) {
         check_sides(path, width, height, 0)?;
     }
-    let failed = |source| Error::Decode {
-        path: path.into(),
-        format: format!("{format:?}").to_uppercase(),
-        source,
-    };
+    if let Some(image) = grey_float::decode(path, bytes, format)? {
+        require_finite(&image)?;
+        return Ok(image);
+    }
+    let failed = |source| failed(path, format, source);
     let mut reader = ImageReader::with_format(std::io::Cursor::new(bytes), format);
     reader.limits(limits());
     let decoder = reader.into_decoder().map_err(failed)?;
@@ -260,6 +263,14 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Image, Error> {
     let image = into_image(path, decoded);
     require_finite(&image)?;
     Ok(image)
+}
+
+fn failed(path: &Path, format: ImageFormat, source: ::image::ImageError) -> Error {
+    Error::Decode {
+        path: path.into(),
+        format: format!("{format:?}").to_uppercase(),
+        source,
+    }
 }
 
 fn format_of(path: &Path, bytes: &[u8]) -> Option<ImageFormat> {

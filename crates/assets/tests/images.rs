@@ -28,6 +28,44 @@ fn rgb_float(values: [f32; 3]) -> Vec<u8> {
     encoded(picture.into(), ImageFormat::OpenExr)
 }
 
+/// Greys of 3×2 texels: i / 8 but for one.
+fn greys(value: f32) -> [f32; 6] {
+    [0.0, 0.125, 0.25, 0.375, 0.5, value]
+}
+
+fn grey_tiff<C: tiff::encoder::colortype::ColorType>(values: &[C::Inner]) -> Vec<u8>
+where
+    [C::Inner]: tiff::encoder::TiffValue,
+{
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut encoder = tiff::encoder::TiffEncoder::new(&mut bytes).unwrap();
+    encoder.write_image::<C>(3, 2, values).unwrap();
+    bytes.into_inner()
+}
+
+/// One channel on a display window of 3×2 texels.
+fn grey_exr(
+    name: &str,
+    samples: exr::prelude::FlatSamples,
+    size: (usize, usize),
+    corner: (i32, i32),
+) -> Vec<u8> {
+    use exr::prelude::*;
+    let channels = AnyChannels::sort([AnyChannel::new(name, samples)].into_iter().collect());
+    let mut layer = Layer::new(
+        size,
+        LayerAttributes::named("heights"),
+        Encoding::FAST_LOSSLESS,
+        channels,
+    );
+    layer.attributes.layer_position = Vec2::from(corner);
+    let window = IntegerBounds::from_dimensions((3, 2));
+    let picture = Image::empty(ImageAttributes::new(window)).with_layer(layer);
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    picture.write().to_buffered(&mut bytes).unwrap();
+    bytes.into_inner()
+}
+
 fn examples() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/textures")
 }
@@ -271,6 +309,84 @@ fn the_first_bad_float_is_named_with_its_texel() {
         decode(Path::new("sky.exr"), &rgb_float([0.0, 9.0, -1.0])).is_ok(),
         "finite is fine as an image"
     );
+}
+
+#[test]
+fn one_channel_of_floats_is_read_as_it_is() {
+    use exr::prelude::{FlatSamples, f16};
+    use tiff::encoder::colortype::{Gray32Float, Gray64Float};
+    let values = greys(0.1);
+    let halves = values.map(f16::from_f32).to_vec();
+    let files = [
+        ("dem.tif", grey_tiff::<Gray32Float>(&values)),
+        (
+            "dem.tif",
+            grey_tiff::<Gray64Float>(&[0.0, 0.125, 0.25, 0.375, 0.5, 0.1]),
+        ),
+        (
+            "dem.exr",
+            grey_exr("Y", FlatSamples::F32(values.to_vec()), (3, 2), (0, 0)),
+        ),
+        (
+            "dem.exr",
+            grey_exr("height", FlatSamples::F32(values.to_vec()), (3, 2), (0, 0)),
+        ),
+        ("dem.exr", grey_exr("Z", FlatSamples::F16(halves), (3, 2), (0, 0))),
+    ];
+    for (at, (name, bytes)) in files.iter().enumerate() {
+        let image = decode(Path::new(name), bytes).unwrap();
+        assert_eq!((image.width, image.height, image.channels), (3, 2, 1), "{at}");
+        let last = if at == 4 { f16::from_f32(0.1).to_f32() } else { 0.1 };
+        assert_eq!(image.texels, Texels::Float32(greys(last).to_vec()), "{at}");
+        assert!(HeightField::from_image(&image, Channel::Red).is_ok());
+    }
+}
+
+#[test]
+fn a_part_of_the_display_window_lies_where_it_says() {
+    let part = exr::prelude::FlatSamples::F32(vec![0.5, 0.75]);
+    let image = decode(Path::new("part.exr"), &grey_exr("Y", part, (1, 2), (2, -1))).unwrap();
+    // The row above the window is lost, as a viewer loses it.
+    assert_eq!(image.texels, Texels::Float32(vec![0.0, 0.0, 0.75, 0.0, 0.0, 0.0]));
+}
+
+#[test]
+fn bad_files_of_one_channel_are_told_as_others_are() {
+    use tiff::encoder::colortype::{Gray32, Gray32Float};
+    let bad = grey_tiff::<Gray32Float>(&greys(f32::NAN));
+    let error = decode(Path::new("dem.tif"), &bad).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            Error::NonFinite {
+                x: 2,
+                y: 1,
+                channel: 0,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let good = grey_tiff::<Gray32Float>(&greys(0.5));
+    let samples = exr::prelude::FlatSamples::F32(greys(0.5).to_vec());
+    for (name, bytes) in [
+        ("cut.tif", good),
+        ("cut.exr", grey_exr("Y", samples, (3, 2), (0, 0))),
+    ] {
+        for length in 8..bytes.len() {
+            // Some bytes at the end are padding; whatever is cut, there is an answer and no panic.
+            if let Err(error) = decode(Path::new(name), &bytes[..length]) {
+                assert!(message(&error).contains(name), "{error}");
+            }
+        }
+        assert!(decode(Path::new(name), &bytes[..bytes.len() / 2]).is_err());
+    }
+    // Whole numbers of 32 bits have no top that stands for 1.
+    let whole = grey_tiff::<Gray32>(&[0, 1, 2, 3, 4, 5]);
+    assert!(matches!(
+        decode(Path::new("dem.tif"), &whole),
+        Err(Error::Decode { .. })
+    ));
 }
 
 #[test]
