@@ -9,7 +9,7 @@
 //!
 //! Most rays are told from grazing ones cheaply and safely: moving a ray by a distance changes the height over the surface by at most
 //! that distance times the steepest slope around, so a ray that meets the surface lifted and lowered by that much at nearly the
-//! same place does not graze ([`slopes`]). [`span`] asks the same of a whole box of rays.
+//! same place does not graze (`slopes`). [`Surface::span`] asks the same of a whole box of rays.
 
 use bossage_assets::{EdgeMode, HeightField};
 use glam::DVec2;
