@@ -444,8 +444,8 @@ impl Subject<'_> {
             Decision::dropped("no tangent frame is used", facts)
         } else if features.mirrored_uv {
             Decision::kept("some vertices have a left-handed frame (mirrored texture)", facts)
-        } else if features.relief == Relief::Exact {
-            Decision::kept("`exact` has no form without it", facts)
+        } else if features.relief.is_search() {
+            Decision::kept("a search along the view ray has no form without it", facts)
         } else if features.has_handedness() {
             Decision::kept(
                 "a general transform may mirror: the sign of its determinant goes along",

@@ -9,8 +9,8 @@
 //! - `dot3` reads a normal map and shifts nothing; in two passes the mask would be known only in the second, so there is none;
 //! - `parallax_slope_ao` reads a normal map, and goes without a reflection; the directed form is a cure, so it has one form;
 //! - `displacement` makes its own normals: no normal map;
-//! - a search along the view ray goes with `blinn_phong` and has one form; `exact` always carries the handedness, one factor beside
-//!   its walk, and so takes half as many modules;
+//! - a search along the view ray goes with `blinn_phong` and has one form; it always carries the handedness, one factor beside dozens
+//!   of fetches, and so takes half as many modules;
 //! - a reflection is as bright as the specular colour, so where there is light there is a highlight too, and it is looked up in
 //!   world space.
 //!
@@ -32,7 +32,7 @@ impl FeatureSet {
     /// - neither light, relief nor reflection → no vector of any kind: no space, no transform of directions, no form
     /// - published formulas transform normals by the object's matrix itself → no cofactor matrix
     /// - object space needs angles kept and one light: otherwise world space
-    /// - no tangent frame → no handedness; `exact` → always
+    /// - no tangent frame → no handedness; a search along the view ray → always
     /// - `dot3` through a cube map divides by nothing → its forms are one
     ///
     /// What goes with what is said in the module `canonical`.
@@ -57,7 +57,7 @@ impl FeatureSet {
         }
         if !self.has_tangent() {
             self.mirrored_uv = false;
-        } else if self.relief == Relief::Exact {
+        } else if self.relief.is_search() {
             self.mirrored_uv = true;
         }
         self

@@ -209,6 +209,9 @@ fn each_technique_goes_with_what_its_article_has() {
         if set.relief == Relief::Displacement {
             assert!(set.normal == NormalSource::Geometric, "{name}");
         }
+        if set.relief.is_search() {
+            assert!(set.mirrored_uv && set.fragment().handedness, "{name}");
+        }
         if set.environment {
             assert!(
                 set.specular == (set.lights != Lights::None) && set.space == LightingSpace::World,

@@ -83,7 +83,14 @@ fn brick_wall_needs_relief_normals_and_a_highlight() {
     let bricks = only(&plan);
     assert_eq!(
         kept(bricks),
-        ["lighting", "specular", "normal_map", "albedo_map", "relief"]
+        [
+            "lighting",
+            "specular",
+            "normal_map",
+            "albedo_map",
+            "relief",
+            "handedness"
+        ]
     );
     assert!(bricks.choice.is_some());
     assert!(
@@ -110,7 +117,10 @@ fn elevation_has_a_tile_that_is_not_square() {
         [0.84019 / 29.98, 0.84019 / 31.88]
     );
     assert_eq!(height.elevation.bias, -height.elevation.scale);
-    assert_eq!(kept(only(&plan(&scene))), ["lighting", "normal_map", "relief"]);
+    assert_eq!(
+        kept(only(&plan(&scene))),
+        ["lighting", "normal_map", "relief", "handedness"]
+    );
 }
 
 #[test]
