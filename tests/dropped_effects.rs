@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use bossage_scene::{EffectId, MaterialPlan, State};
-use bossage_shaders::{FeatureSet, Library, Lights, NormalSource, Normaliser, Relief, Shading};
+use bossage_shaders::{FeatureSet, Library, Lights, NormalSource, Normaliser, Relief, Shading, Shadow};
 use bossage_translate::emit::spirv_listing;
 use bossage_translate::{Contents, EmitOptions, Manifest, Shader, Source, Target, emit, manifest};
 
@@ -36,6 +36,14 @@ fn words(effect: EffectId) -> &'static [&'static str] {
             "parallax_slope_ao",
             "parallax_slope_ao_directed",
             "parallax_slope_ao_delta",
+        ],
+        EffectId::Shadow => &[
+            "self_shadow",
+            "soft_shadow",
+            "light_half_width",
+            "seen_share",
+            "light_rise",
+            "seen",
         ],
         EffectId::AmbientOcclusion => &["occlusion", "slope_occlusion"],
         EffectId::Emboss => &[
@@ -216,6 +224,11 @@ fn full_sets() -> Vec<FeatureSet> {
         },
         FeatureSet {
             shading: Shading::Dot3TwoPass,
+            ..lit
+        },
+        FeatureSet {
+            relief: Relief::SteepParallax,
+            shadow: Shadow::Soft,
             ..lit
         },
     ];

@@ -4,7 +4,8 @@
 //! of the texture coordinates, with its occlusion of ambient light → alpha test → perturbed normal → light, by kind of shading →
 //! reflection. Linear; the sRGB encoding is a separate step. What each [`Shading`] adds up:
 //!
-//! - `BlinnPhong`: ambient · ao · albedo + Σ radiance · (saturate(N·L) · albedo + pow(saturate(N·H), p) · specular);
+//! - `BlinnPhong`: ambient · ao · albedo + Σ seen · radiance · (saturate(N·L) · albedo + pow(saturate(N·H), p) · specular), where
+//!   `seen` is 1 without [`Shadow`];
 //! - `Emboss`: ambient · albedo + radiance · saturate(saturate(N·L) + h − h′) · albedo, the light's part only where the light is
 //!   above the polygon;
 //! - `WrapLambert`: the second article's factor · radiance · albedo;
@@ -18,6 +19,7 @@
 //! vertices show in the interpolants alone.
 
 mod light;
+mod shadow;
 #[cfg(test)]
 mod tests;
 
@@ -27,7 +29,7 @@ use glam::{DVec2, DVec3, DVec4};
 
 use crate::dot3_single_pass::Normaliser;
 use crate::environment_bump::{self, Environment};
-use crate::relief_ray::Layer;
+use crate::relief_ray::{HitRecord, Layer};
 use crate::relief_search::{Maps, Search};
 use crate::texture::Texture;
 use crate::vector::{normalize, normalize_or_zero};
@@ -124,6 +126,25 @@ pub enum Relief {
     },
 }
 
+/// What of the relief stands between the place that a search found and the lights.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shadow {
+    /// Nothing.
+    None,
+    /// [`crate::self_shadow`].
+    Hard {
+        /// Samples on the way to each light, at least one.
+        samples: u32,
+    },
+    /// [`crate::soft_shadow`], hardened.
+    Soft {
+        /// Samples on the way to each light, at least one.
+        samples: u32,
+        /// Half the extent of each light, in slopes of the ray to its middle.
+        half_width: f64,
+    },
+}
+
 /// What a search along the view ray reads.
 #[derive(Clone, Debug)]
 pub struct SearchMaps {
@@ -184,6 +205,8 @@ pub struct Material {
     pub search_maps: Option<SearchMaps>,
     /// Shift of the texture coordinates.
     pub relief: Relief,
+    /// What stands before the lights; nothing without [`Relief::Search`].
+    pub shadow: Shadow,
     /// Ambient light, linear.
     pub ambient: DVec3,
     /// Specular colour, linear; `None` where the shader has no highlight.
@@ -222,6 +245,7 @@ pub fn shade(
     let Shifted {
         uv,
         ambient_occlusion,
+        hit,
     } = shifted_uv(material, at, viewer, form);
     let albedo = material.albedo * sample(material.albedo_map.as_ref(), material.edge, uv, DVec4::ONE);
     if material.alpha_cutoff.is_some_and(|cutoff| albedo.w < cutoff) {
@@ -232,6 +256,7 @@ pub fn shade(
         at,
         form,
         uv,
+        hit,
         ambient_occlusion,
         albedo,
         view,
@@ -247,6 +272,8 @@ pub struct Shifted {
     pub uv: DVec2,
     /// The share of ambient light.
     pub ambient_occlusion: f64,
+    /// How a search ended, where there was one.
+    pub hit: Option<HitRecord>,
 }
 
 /// The relief shift.
@@ -259,10 +286,17 @@ pub fn shifted_uv(material: &Material, at: &Interpolants, viewer: &Viewer, form:
     let moved = |uv: DVec2| Shifted {
         uv,
         ambient_occlusion: 1.0,
+        hit: None,
     };
     match material.relief {
         Relief::None => moved(at.uv),
-        Relief::Search { search, layer } => moved(found(material, search, at.uv, view_ts, &layer)),
+        Relief::Search { search, layer } => {
+            let hit = found(material, search, at.uv, view_ts, &layer);
+            Shifted {
+                hit,
+                ..moved(hit.map_or(at.uv, |hit| hit.uv))
+            }
+        }
         Relief::Offset {
             form: Form::Published,
             scale,
@@ -324,16 +358,15 @@ pub fn shifted_uv(material: &Material, at: &Interpolants, viewer: &Viewer, form:
             Shifted {
                 uv: shift.uv,
                 ambient_occlusion: shift.ambient_occlusion,
+                hit: None,
             }
         }
     }
 }
 
-/// The hit of a search; the place itself where the maps are missing that it reads.
-fn found(material: &Material, search: Search, uv: DVec2, view_ts: DVec3, layer: &Layer) -> DVec2 {
-    let Some(given) = &material.search_maps else {
-        return uv;
-    };
+/// The hit of a search; none where the maps are missing that it reads.
+fn found(material: &Material, search: Search, uv: DVec2, view_ts: DVec3, layer: &Layer) -> Option<HitRecord> {
+    let given = material.search_maps.as_ref()?;
     let normal_z = |uv: DVec2| sample(given.normal_z.as_ref(), material.edge, uv, DVec4::ONE).y;
     let maps = Maps {
         normal_z: Some(&normal_z),
@@ -341,9 +374,7 @@ fn found(material: &Material, search: Search, uv: DVec2, view_ts: DVec3, layer: 
         relaxed_cones: given.cones.as_ref(),
         ..Maps::of_heights(&given.heights, material.edge)
     };
-    search
-        .find(&maps, uv, view_ts, layer)
-        .map_or(uv, |found| found.record.uv)
+    search.find(&maps, uv, view_ts, layer).map(|found| found.record)
 }
 
 /// The perturbed normal as it comes out of the frame, of any length.

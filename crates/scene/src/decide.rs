@@ -5,10 +5,11 @@
 
 use bossage_shaders::{
     Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser as Normalises, Relief,
-    Shading, Transform,
+    Shading, Shadow, Transform,
 };
 use glam::DVec3;
 
+use crate::decide_shading::beside_shadows;
 use crate::facts::{MaterialFacts, has_mirrored_uv};
 use crate::model::{AlphaMode, Light, LightKind, Material, Normaliser, Object, Scene, TechniquePin};
 use crate::plan::{Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Predicted, State};
@@ -123,6 +124,8 @@ impl Subject<'_> {
         let relief = relief::decide(self, normal_map.kept || albedo_map.kept);
         // What is chosen can be drawn, and so can what is pinned.
         asked.relief = relief.technique.relief().unwrap_or_default();
+        let shadow = self.shadow(lighting.kept, relief.technique);
+        asked.shadow = chosen(shadow.kept, self.material.shadow.feature(), Shadow::None);
         let emboss = self.emboss();
         let mut features = FeatureSet {
             shading: chosen(
@@ -150,6 +153,7 @@ impl Subject<'_> {
             (EffectId::AlbedoMap, albedo_map),
             (EffectId::AlphaDiscard, alpha_discard),
             (EffectId::Relief, relief.decision),
+            (EffectId::Shadow, shadow),
             (EffectId::AmbientOcclusion, self.ambient_occlusion()),
             (EffectId::Emboss, emboss),
             (EffectId::Displacement, self.displacement()),
@@ -173,7 +177,10 @@ impl Subject<'_> {
             drawn,
             effects: effects
                 .into_iter()
-                .map(|(id, decision)| decision.into_effect(id))
+                .map(|(id, decision)| match features.shadow {
+                    Shadow::None => decision.into_effect(id),
+                    Shadow::Hard | Shadow::Soft => beside_shadows(id, decision).into_effect(id),
+                })
                 .collect(),
             predicted: relief.predicted,
             choice: relief.choice,
@@ -207,13 +214,18 @@ impl Subject<'_> {
         if self.objects.is_empty() {
             notes.push("no object uses this material".to_owned());
         }
-        if self.material.lighting_space == LightingSpace::Object && features.lights == Lights::Many {
+        let shadows = features.shadow != Shadow::None;
+        if self.material.lighting_space == LightingSpace::Object && shadows {
+            notes.push(
+                "shadows are found in world space, so lighting_space = \"object\" is not used".to_owned(),
+            );
+        } else if self.material.lighting_space == LightingSpace::Object && features.lights == Lights::Many {
             notes.push(
                 "lighting_space = \"object\" is defined for one light; with several, world space is used"
                     .to_owned(),
             );
         }
-        if self.material.lighting_space == LightingSpace::Object && features.environment {
+        if self.material.lighting_space == LightingSpace::Object && features.environment && !shadows {
             notes.push(
                 "the environment is mirrored in world space, so lighting_space = \"object\" is not used"
                     .to_owned(),

@@ -1,4 +1,4 @@
-//! Effects of shading: highlight, reflection, embossing, the normalisation cube map, occlusion, displacement, the second pass.
+//! Effects of shading: shadow, highlight, reflection, embossing, the normalisation cube map, occlusion, displacement, the second pass.
 //!
 //! A pinned technique is kept as long as what it reads says anything; where the content makes it exactly nothing it is dropped like
 //! any other effect.
@@ -7,11 +7,58 @@ use bossage_assets::Texels;
 use bossage_shaders::{Relief, Shading};
 
 use crate::decide::{Decision, Subject, evidence};
-use crate::model::{Normaliser, ReflectionPin, TechniquePin};
-use crate::plan::{Evidence, Fact};
+use crate::model::{Normaliser, ReflectionPin, Shadow, TechniquePin};
+use crate::plan::{EffectId, Evidence, Fact};
+use crate::technique::Technique;
 use crate::tile::Tile;
 
+/// What a shader with shadows has beside them, whatever the material calls for.
+const BESIDE_SHADOWS: [EffectId; 6] = [
+    EffectId::LightVector,
+    EffectId::LightLoop,
+    EffectId::Specular,
+    EffectId::Environment,
+    EffectId::NormalMap,
+    EffectId::AlbedoMap,
+];
+
+/// An effect's decision where the shader has shadows: kept, although it changes nothing.
+pub(crate) fn beside_shadows(id: EffectId, decision: Decision) -> Decision {
+    if decision.kept || !BESIDE_SHADOWS.contains(&id) {
+        return decision;
+    }
+    let reason = format!(
+        "every shader with shadows has it; it changes nothing here: {}",
+        decision.reason
+    );
+    Decision::kept(reason, decision.evidence)
+}
+
 impl Subject<'_> {
+    /// `technique`: what the relief is drawn by.
+    pub(crate) fn shadow(&self, lit: bool, technique: Technique) -> Decision {
+        let shadow = self.material.shadow;
+        if shadow == Shadow::None {
+            return Decision::dropped("the scene asks for none", Evidence::new());
+        }
+        let mut facts = evidence([("light_samples", Fact::Count(u64::from(shadow.samples())))]);
+        if let Shadow::Soft { half_width, .. } = shadow {
+            facts.insert("light_half_width", Fact::Number(half_width));
+        }
+        let searches = technique.relief().is_some_and(Relief::is_search);
+        if !lit {
+            Decision::dropped("there is no light to cast one", facts)
+        } else if technique == Technique::None {
+            Decision::dropped("no relief is drawn that could cast one", facts)
+        } else if !searches {
+            let reason = format!("`{}` finds no place for one to fall on", technique.id());
+            Decision::dropped(reason, facts)
+        } else {
+            // A light below the polygon lights nothing with shadows, and without them slopes that face it: dropping would show.
+            Decision::kept("asked for by the scene", facts)
+        }
+    }
+
     pub(crate) fn specular(&self, lit: bool) -> Decision {
         let (specular, shading) = (self.material.specular, self.material.shading);
         let facts = evidence([("specular", Fact::Numbers(specular.to_array().to_vec()))]);

@@ -13,10 +13,10 @@ use glam::{DMat4, DVec3, DVec4};
 
 use crate::camera::Matrices;
 use crate::facts::MaterialFacts;
-use crate::model::{AlphaMode, Elevation, Light, Material, Normaliser, Object, ReflectionPin, Scene};
+use crate::model::{AlphaMode, Elevation, Light, Material, Normaliser, Object, ReflectionPin, Scene, Shadow};
 use crate::plan::Plan;
 use crate::relief_map;
-use crate::schema::MAX_LIGHTS;
+use crate::schema::{LIGHT_HALF_WIDTH, MAX_LIGHTS};
 use crate::technique::{self, Settings};
 use crate::textures::Texture;
 use crate::tile::Tile;
@@ -280,6 +280,7 @@ fn material_uniforms(
         ),
         ("material.shininess".to_owned(), vec![material.shininess as f32]),
         ("material.relief".to_owned(), relief(prepared, features)),
+        ("material.light_half_width".to_owned(), vec![half_width(material)]),
         ("material.occlusion".to_owned(), vec![material.occlusion as f32]),
         ("material.emboss_step".to_owned(), vec![emboss_step(material)]),
         ("material.alpha_cutoff".to_owned(), vec![cutoff as f32]),
@@ -329,7 +330,7 @@ fn relief(prepared: &Prepared<'_>, features: &FeatureSet) -> Vec<f32> {
     }
 }
 
-/// Layers, steps or iterations, refinements, and the sampler's edge mode.
+/// Layers, steps or iterations, refinements, the sampler's edge mode, and samples toward each light.
 fn search(material: &Material, settings: &Settings) -> Vec<f32> {
     let [steps, refinements] = technique::numbers(settings);
     let edge = match material.address {
@@ -337,7 +338,20 @@ fn search(material: &Material, settings: &Settings) -> Vec<f32> {
         EdgeMode::Mirror => 1.0,
         EdgeMode::Clamp => 2.0,
     };
-    vec![steps as f32, refinements as f32, edge, 0.0]
+    vec![
+        steps as f32,
+        refinements as f32,
+        edge,
+        material.shadow.samples() as f32,
+    ]
+}
+
+/// Half the extent of the lights, that of the schema where shadows are not soft.
+fn half_width(material: &Material) -> f32 {
+    match material.shadow {
+        Shadow::Soft { half_width, .. } => half_width as f32,
+        Shadow::None | Shadow::Hard { .. } => LIGHT_HALF_WIDTH as f32,
+    }
 }
 
 /// The texels toward the light in texture coordinates of the longer side.

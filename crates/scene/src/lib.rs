@@ -58,6 +58,7 @@ mod load_material;
 mod load_normal;
 mod load_object;
 mod load_search;
+mod load_shadow;
 mod model;
 mod percentile;
 mod plan;
@@ -86,7 +87,7 @@ pub use facts::{AlbedoFacts, HeightFacts, MaterialFacts, NormalFacts};
 pub use load::{load, load_str, load_with};
 pub use model::{
     AlbedoSource, AlphaMode, Budget, Camera, Elevation, Environment, HeightSource, Light, LightKind,
-    Material, NormalSource, Normaliser, Object, ReflectionPin, Scene, Shape, Tangents, TechniquePin,
+    Material, NormalSource, Normaliser, Object, ReflectionPin, Scene, Shadow, Shape, Tangents, TechniquePin,
     Transform,
 };
 pub use plan::{

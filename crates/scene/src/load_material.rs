@@ -13,6 +13,7 @@ use crate::files::{Files, chain};
 use crate::load::{Named, refuse};
 use crate::load_normal::{self, Heights};
 use crate::load_search;
+use crate::load_shadow;
 use crate::model::{
     AlbedoSource, AlphaMode, Elevation, HeightSource, Material, Normaliser, ReflectionPin, Tangents,
     TechniquePin,
@@ -91,6 +92,7 @@ pub(crate) fn material(table: &Table<'_>, files: &Files) -> Option<Material> {
     let alpha = table.or("alpha", uncut, alpha);
     let technique = table.or("technique", TechniquePin::Auto, |v| v.word(&TechniquePin::NAMES));
     let search = technique.and_then(|pin| load_search::settings(table, pin));
+    let shadow = load_shadow::shadow(table);
     let occlusion = table.or("occlusion", schema::OCCLUSION, |v| v.number(NOT_NEGATIVE));
     let normaliser = table.or("normaliser", Normaliser::Arithmetic, |v| normaliser(v, shading));
     let emboss_texels = table.or("emboss_texels", schema::EMBOSS_TEXELS, |v| v.number(POSITIVE));
@@ -109,6 +111,7 @@ pub(crate) fn material(table: &Table<'_>, files: &Files) -> Option<Material> {
         address: address?,
         technique: technique?,
         search: search?,
+        shadow: shadow?,
         occlusion: occlusion?,
         shading: shading?,
         normaliser: normaliser?,

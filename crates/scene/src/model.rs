@@ -9,7 +9,7 @@ use std::sync::Arc;
 use bossage_assets::normal_mips::NormalMips;
 use bossage_assets::{ColorMap, CubeMap, EdgeMode, HeightField, Mesh, NormalMap, NormalisationCubeMap};
 use bossage_reference::relief_search::Search;
-use bossage_shaders::{Form, LightingSpace, Relief, Shading};
+use bossage_shaders::{Form, LightingSpace, Relief, Shading, Shadow as Feature};
 use glam::{DMat3, DMat4, DQuat, DVec2, DVec3, DVec4};
 
 use crate::profile::Profile;
@@ -157,6 +157,8 @@ pub struct Material {
     pub technique: TechniquePin,
     /// The settings that go with a pinned search; where there are none, those of the schema count.
     pub search: Option<Search>,
+    /// What of the relief stands before the lights.
+    pub shadow: Shadow,
     /// How much ambient light a unit of shift takes away, for the techniques that occlude it.
     pub occlusion: f64,
     /// What light does.
@@ -311,6 +313,46 @@ impl TechniquePin {
             Self::ConeStep => Some(Relief::ConeStep),
             Self::RelaxedConeStep => Some(Relief::RelaxedConeStep),
             Self::Exact => Some(Relief::Exact),
+        }
+    }
+}
+
+/// What of the relief stands between a place on it and the lights, and how that is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shadow {
+    /// Nothing.
+    None,
+    /// `self_shadow`.
+    Hard {
+        /// Samples on the way to each light.
+        samples: u32,
+    },
+    /// `soft_shadow`.
+    Soft {
+        /// Samples on the way to each light.
+        samples: u32,
+        /// Half the extent of each light, in slopes of the ray to its middle.
+        half_width: f64,
+    },
+}
+
+impl Shadow {
+    /// What the surface draws it by.
+    #[must_use]
+    pub fn feature(self) -> Feature {
+        match self {
+            Self::None => Feature::None,
+            Self::Hard { .. } => Feature::Hard,
+            Self::Soft { .. } => Feature::Soft,
+        }
+    }
+
+    /// Samples on the way to each light, 0 without shadows.
+    #[must_use]
+    pub fn samples(self) -> u32 {
+        match self {
+            Self::None => 0,
+            Self::Hard { samples } | Self::Soft { samples, .. } => samples,
         }
     }
 }

@@ -162,6 +162,8 @@ pub enum EffectId {
     AlphaDiscard,
     /// Displacing texture coordinates by the height map.
     Relief,
+    /// What of the relief stands before the lights.
+    Shadow,
     /// Ambient light occluded by the slope of the normal map.
     AmbientOcclusion,
     /// The slope of the height map toward the light, added to the diffuse term.
@@ -178,7 +180,7 @@ pub enum EffectId {
 
 impl EffectId {
     /// All of them, in order.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 17] = [
         Self::Lighting,
         Self::LightVector,
         Self::LightLoop,
@@ -189,6 +191,7 @@ impl EffectId {
         Self::AlbedoMap,
         Self::AlphaDiscard,
         Self::Relief,
+        Self::Shadow,
         Self::AmbientOcclusion,
         Self::Emboss,
         Self::Displacement,
@@ -211,6 +214,7 @@ impl EffectId {
             Self::AlbedoMap => "albedo_map",
             Self::AlphaDiscard => "alpha_discard",
             Self::Relief => "relief",
+            Self::Shadow => "shadow",
             Self::AmbientOcclusion => "ambient_occlusion",
             Self::Emboss => "emboss",
             Self::Displacement => "displacement",

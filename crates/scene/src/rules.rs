@@ -7,7 +7,7 @@ use bossage_shaders::{Form, Relief, Shading};
 use glam::DVec3;
 
 use crate::fields::Table;
-use crate::model::{AlphaMode, Light, Material, ReflectionPin, Scene, TechniquePin};
+use crate::model::{AlphaMode, Light, Material, ReflectionPin, Scene, Shadow, TechniquePin};
 
 /// What a material is seen by.
 pub(crate) struct Surroundings<'a> {
@@ -46,6 +46,7 @@ pub(crate) fn check(root: &Table<'_>, materials: &[Material], surroundings: &Sur
         let refusals = [
             relief(material, &at),
             shading(material, &at),
+            shadow(material, &at),
             lights(material, surroundings),
             reflection(material, surroundings),
         ];
@@ -120,6 +121,37 @@ fn relief(material: &Material, at: Field<'_>) -> Option<Refusal> {
         );
     }
     None
+}
+
+/// Why a material cannot have shadows although it asks for them.
+fn shadow(material: &Material, at: Field<'_>) -> Option<Refusal> {
+    if material.shadow == Shadow::None {
+        return None;
+    }
+    let height = at("height");
+    let no = |message: String, hint: String| Some(Refusal::new("shadow", message, hint));
+    let pinned = material.technique.relief();
+    if material.height.is_none() {
+        no(
+            format!("shadows are those of the heights, and there is no `{height}`"),
+            format!("add `{height}` with a map, or set shadow to `none`"),
+        )
+    } else if material.shading != Shading::BlinnPhong {
+        no(
+            format!("shadows do not go with shading `{}`", material.shading.as_str()),
+            "set shading to `blinn_phong`, or shadow to `none`".to_owned(),
+        )
+    } else if pinned.is_some_and(|relief| !relief.is_search()) {
+        no(
+            format!(
+                "technique `{}` finds no place on the relief for a shadow to fall on",
+                material.technique.as_str()
+            ),
+            "set technique to a search such as `relief`, or shadow to `none`".to_owned(),
+        )
+    } else {
+        None
+    }
 }
 
 fn goes_with(shading: Shading, relief: Relief) -> bool {

@@ -49,6 +49,9 @@
 //! | `materials.layers` | 1 to 4096; `steep_parallax`, `parallax_occlusion`, `relief` only | `32`; `16` of `relief` |
 //! | `materials.steps` | 1 to 4096; `cone_step`, `relaxed_cone_step` only | `32`; `16` of `relaxed_cone_step` |
 //! | `materials.refinements` | 0 to 24; `relief`, `relaxed_cone_step` only | `5` |
+//! | `materials.shadow` | `none`, `hard`, `soft`: what of the relief stands before the lights | `none` |
+//! | `materials.light_samples` | 1 to 4096: heights read on the way to each light; with `shadow` only | `16` |
+//! | `materials.light_half_width` | 0.001 to 1000: half the extent of each light, in slopes of the ray to its middle; `soft` only | `0.25` |
 //! | `materials.occlusion` | ≥ 0: ambient light taken away by a unit of `parallax_slope_ao`'s shift | `40` |
 //! | `materials.shading` | `blinn_phong`, `wrap_lambert`, `emboss`, `dot3_single_pass`, `dot3_two_pass` | `blinn_phong` |
 //! | `materials.normaliser.kind` | `arithmetic`, `cube`; `dot3` only | `arithmetic` |
@@ -77,6 +80,8 @@
 //!
 //! - A pinned relief technique needs `height`. The offsets and the searches along the view ray need something textured to displace too (`albedo.map` or
 //!   `normal`), the slope techniques `normal`. The searches go with `blinn_phong` and have one form.
+//! - `shadow` needs `height` and goes with `blinn_phong` and a search along the view ray, pinned or chosen: it begins at the place that
+//!   the search found. Where another technique is chosen there is none. Light is then measured in world space.
 //! - `emboss` needs `height`, `dot3_single_pass` and `dot3_two_pass` need `normal`; these and `wrap_lambert` have exactly one
 //!   light that is not black. Of relief techniques `wrap_lambert` goes with the slope's two and `displacement`, `emboss` and
 //!   `dot3` with none. `wrap_lambert` has one ambient value: `ambient` must be grey.
@@ -129,6 +134,13 @@ pub const OCCLUSION: f64 = 40.0;
 pub const MAX_STEPS: u32 = 4096;
 /// Most refinements: after that a bracket is no longer wider than the rounding of its ends.
 pub const MAX_REFINEMENTS: u32 = 24;
+
+/// Default `materials.light_samples`.
+pub const LIGHT_SAMPLES: u32 = 16;
+/// Default `materials.light_half_width`.
+pub const LIGHT_HALF_WIDTH: f64 = 0.25;
+/// Least and greatest `materials.light_half_width`: a light is neither a point nor all of the sky.
+pub const LIGHT_HALF_WIDTH_ENDS: [f64; 2] = [0.001, 1000.0];
 
 /// A search with its default settings; none for pins that are no search.
 #[must_use]

@@ -11,6 +11,8 @@
 //! - `displacement` makes its own normals: no normal map;
 //! - a search along the view ray goes with `blinn_phong` and has one form; it always carries the handedness, one factor beside dozens
 //!   of fetches, and so takes half as many modules;
+//! - shadows begin at the place that a search found, so they go with a search alone; beside a march toward each light the other effects
+//!   cost little, so all but the mask are on, neutral where a material has none: one shader a search, kind of shadow and mask;
 //! - a reflection is as bright as the specular colour, so where there is light there is a highlight too, and it is looked up in
 //!   world space.
 //!
@@ -19,7 +21,7 @@
 
 use crate::feature_set::{
     Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser, Relief, Shading,
-    Transform,
+    Shadow, Transform,
 };
 
 impl FeatureSet {
@@ -43,6 +45,7 @@ impl FeatureSet {
         }
         self.settle_shading();
         self.settle_relief();
+        self.settle_shadow();
         self.settle_surroundings();
         if !self.has_normal() {
             self.transform = Transform::Rigid;
@@ -122,6 +125,20 @@ impl FeatureSet {
         }
     }
 
+    /// What a shadow goes with.
+    fn settle_shadow(&mut self) {
+        if !self.relief.is_search() || self.lights == Lights::None {
+            self.shadow = Shadow::None;
+        }
+        if self.shadow != Shadow::None {
+            self.normal = NormalSource::Map;
+            self.albedo = Albedo::Map;
+            self.lights = Lights::Many;
+            self.specular = true;
+            self.environment = true;
+        }
+    }
+
     /// What is left to see by: lights and the environment.
     fn settle_surroundings(&mut self) {
         if self.lights == Lights::None {
@@ -151,6 +168,7 @@ impl FeatureSet {
         let object = planned.space == LightingSpace::Object;
         FeatureSet {
             relief: planned.relief_switched_on(),
+            shadow: planned.shadow,
             normal: NormalSource::Map,
             lights: match (planned.shading, object, planned.lights) {
                 (Shading::BlinnPhong, false, _) => Lights::Many,

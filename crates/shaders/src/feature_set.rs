@@ -161,6 +161,24 @@ impl Shading {
     }
 }
 
+/// What of the relief may stand between a place on it and a light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shadow {
+    /// Nothing: light reaches every place.
+    #[default]
+    None,
+    /// `self_shadow`: a place is lit or it is not.
+    Hard,
+    /// `soft_shadow`: a share of each light is seen over the relief's horizon.
+    Soft,
+}
+
+impl Shadow {
+    /// All of them, in order.
+    pub const ALL: [Self; 3] = [Self::None, Self::Hard, Self::Soft];
+}
+
 /// What makes a unit vector of the light vector of `dot3`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -270,6 +288,9 @@ impl Form {
 pub struct FeatureSet {
     /// How the texture coordinate is displaced.
     pub relief: Relief,
+    /// What of the relief stands before the lights.
+    #[serde(default)]
+    pub shadow: Shadow,
     /// Where the normal comes from.
     pub normal: NormalSource,
     /// How many lights of which kind.

@@ -10,7 +10,7 @@ use wesl::syntax::{
 };
 
 use crate::feature_set::{
-    Albedo, Alpha, Form, LightingSpace, Lights, NormalSource, Normaliser, Relief, Shading, Transform,
+    Albedo, Alpha, Form, LightingSpace, Lights, NormalSource, Normaliser, Relief, Shading, Shadow, Transform,
 };
 use crate::stage::{FragmentKey, Pass, VertexKey};
 
@@ -62,6 +62,7 @@ pub(crate) const KNOWN: &[&str] = &[
     "sampler",
     "search",
     "self_shadow",
+    "shadow",
     "slope",
     "soft_shadow",
     "specular",
@@ -206,7 +207,10 @@ pub(crate) fn of_fragment(key: &FragmentKey, variant: Variant) -> Vec<&'static s
             needs.uv || key.environment || key.normaliser == Normaliser::Cube,
         ),
         ("search", key.relief.is_search()),
+        ("self_shadow", key.shadow == Shadow::Hard),
+        ("shadow", key.shadow != Shadow::None),
         ("slope", key.relief.is_slope()),
+        ("soft_shadow", key.shadow == Shadow::Soft),
         ("specular", key.specular),
         ("specular_color", key.specular || key.environment),
         ("steep_parallax", key.relief == Relief::SteepParallax),

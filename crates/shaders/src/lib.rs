@@ -44,7 +44,7 @@ mod user_file;
 pub use error::{Error, SourceError};
 pub use feature_set::{
     Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser, Relief, Shading,
-    Transform,
+    Shadow, Transform,
 };
 pub use kernel::Kernel;
 pub use library::{AssembledShader, Library};

@@ -5,7 +5,7 @@
 
 use crate::feature_set::{
     Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser, Relief, Shading,
-    Transform,
+    Shadow, Transform,
 };
 use crate::stage::{FragmentKey, Pass, VertexKey};
 
@@ -24,6 +24,7 @@ impl FeatureSet {
             "surface",
             [
                 relief(set.relief),
+                shadow(set.shadow),
                 normal(set.normal),
                 lights(set.lights),
                 shading(set.shading, Pass::Only),
@@ -69,6 +70,7 @@ impl FragmentKey {
             "surface_fragment",
             [
                 relief(self.relief),
+                shadow(self.shadow),
                 normal(self.normal),
                 lights(self.lights),
                 shading(self.shading, self.pass),
@@ -106,6 +108,14 @@ fn relief(relief: Relief) -> Option<&'static str> {
         Relief::ConeStep => Some("cone_step"),
         Relief::RelaxedConeStep => Some("relaxed_cone_step"),
         Relief::Exact => Some("exact"),
+    }
+}
+
+fn shadow(shadow: Shadow) -> Option<&'static str> {
+    match shadow {
+        Shadow::None => None,
+        Shadow::Hard => Some("self_shadow"),
+        Shadow::Soft => Some("soft_shadow"),
     }
 }
 

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use crate::feature_set::{
     Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser, Relief, Shading,
-    Transform,
+    Shadow, Transform,
 };
 
 /// A stage of the surface shader.
@@ -64,6 +64,8 @@ pub struct VertexKey {
 pub struct FragmentKey {
     /// How the texture coordinate is displaced.
     pub relief: Relief,
+    /// What of the relief stands before the lights.
+    pub shadow: Shadow,
     /// Where the normal comes from.
     pub normal: NormalSource,
     /// How many lights of which kind.
@@ -117,6 +119,7 @@ impl FeatureSet {
             } else {
                 set.relief
             },
+            shadow: set.shadow,
             normal: set.normal,
             lights: set.lights,
             shading: set.shading,
@@ -138,6 +141,7 @@ impl FeatureSet {
         let set = self.canonical();
         (set.shading == Shading::Dot3TwoPass).then_some(FragmentKey {
             relief: Relief::None,
+            shadow: Shadow::None,
             normal: NormalSource::Geometric,
             lights: Lights::None,
             shading: set.shading,
@@ -220,6 +224,10 @@ impl FeatureSet {
         vary(&mut sets, &[false, true], |set, it| set.specular = it);
         vary(&mut sets, &[false, true], |set, it| set.environment = it);
         vary(&mut sets, &[false, true], |set, it| set.mirrored_uv = it);
+        let canonical: BTreeSet<FeatureSet> = sets.into_iter().map(FeatureSet::canonical).collect();
+        let mut sets: Vec<FeatureSet> = canonical.into_iter().collect();
+        // Few sets have shadows, so they are looked for among those that remain.
+        vary(&mut sets, &Shadow::ALL, |set, shadow| set.shadow = shadow);
         let canonical: BTreeSet<FeatureSet> = sets.into_iter().map(FeatureSet::canonical).collect();
         canonical.into_iter().collect()
     }

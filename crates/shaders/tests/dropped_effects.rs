@@ -8,8 +8,8 @@ use std::fs;
 use std::path::Path;
 
 use bossage_shaders::{
-    Albedo, Alpha, FeatureSet, Library, Lights, NormalSource, Normaliser, Relief, Result, Shading, Stage,
-    Transform,
+    Albedo, Alpha, FeatureSet, Library, Lights, NormalSource, Normaliser, Relief, Result, Shading, Shadow,
+    Stage, Transform,
 };
 
 struct Effect {
@@ -34,7 +34,8 @@ const EFFECTS: &[Effect] = &[
     },
     Effect {
         name: "height map in the fragment stage",
-        on: |set| set.relief.reads_heights() || set.shading == Shading::Emboss,
+        // A march toward a light calls whatever map its heights are in by this name.
+        on: |set| set.relief.reads_heights() || set.shading == Shading::Emboss || set.shadow != Shadow::None,
         vertex: &[],
         fragment: &["height_map"],
     },
@@ -74,9 +75,28 @@ const EFFECTS: &[Effect] = &[
         on: |set| {
             set.relief == Relief::ParallaxOffset
                 || (set.relief.is_search() && set.relief != Relief::ParallaxIterative)
+                || set.shadow != Shadow::None
         },
         vertex: &[],
         fragment: &["MIN_VIEW_Z"],
+    },
+    Effect {
+        name: "shadow",
+        on: |set| set.shadow != Shadow::None,
+        vertex: &[],
+        fragment: &["light_rise", "BIAS_HEIGHT", "seen"],
+    },
+    Effect {
+        name: "self_shadow",
+        on: |set| set.shadow == Shadow::Hard,
+        vertex: &[],
+        fragment: &["self_shadow"],
+    },
+    Effect {
+        name: "soft_shadow",
+        on: |set| set.shadow == Shadow::Soft,
+        vertex: &[],
+        fragment: &["soft_shadow", "seen_share", "light_half_width"],
     },
     Effect {
         name: "march",
@@ -547,6 +567,11 @@ fn a_missing_guard_is_caught() -> Result<()> {
             "entry/surface_bindings.wesl",
             "@if(specular) shininess",
             "shininess",
+        ),
+        (
+            "entry/surface_bindings.wesl",
+            "@if(soft_shadow) light_half_width",
+            "light_half_width",
         ),
         (
             "entry/surface_bindings.wesl",

@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use bossage_shaders::{
     Albedo, Alpha, FeatureSet, Form, LightingSpace, Lights, NormalSource, Normaliser, Pass, Relief, Shading,
-    Stage, Transform,
+    Shadow, Stage, Transform,
 };
 
-/// Every value of the type, canonical or not: 6·5·2·2·4·2⁸.
+/// Every value of the type without shadows, canonical or not: 13·5·2·2·2·4·2⁸.
 fn all() -> Vec<FeatureSet> {
     let mut sets = vec![FeatureSet::default()];
     let mut vary = |change: &dyn Fn(FeatureSet) -> Vec<FeatureSet>| {
@@ -76,7 +76,12 @@ fn all() -> Vec<FeatureSet> {
 
 #[test]
 fn canonical_is_idempotent_and_reachable_holds_exactly_the_canonical_ones() {
-    let canonical: BTreeSet<FeatureSet> = all().into_iter().map(FeatureSet::canonical).collect();
+    let with = |set: FeatureSet| Shadow::ALL.map(|shadow| FeatureSet { shadow, ..set });
+    let canonical: BTreeSet<FeatureSet> = all()
+        .into_iter()
+        .flat_map(with)
+        .map(FeatureSet::canonical)
+        .collect();
     assert!(canonical.iter().all(|set| set.canonical() == *set));
     assert_eq!(canonical.into_iter().collect::<Vec<_>>(), FeatureSet::reachable());
 }
@@ -91,6 +96,39 @@ fn equal_code_has_an_equal_key_and_different_keys_have_different_names() {
             None,
             "{} has the modules of another",
             set.name()
+        );
+    }
+}
+
+/// A search has one shader for each kind of shadow with and without a mask, whatever else is asked for.
+#[test]
+fn shadows_add_four_fragment_shaders_a_search() {
+    let shaded = |set: &FeatureSet| set.shadow != Shadow::None;
+    let reachable = FeatureSet::reachable();
+    let fragments: BTreeSet<_> = reachable
+        .iter()
+        .filter(|set| shaded(set))
+        .map(FeatureSet::fragment)
+        .collect();
+    let searches = Relief::ALL
+        .into_iter()
+        .filter(|relief| relief.is_search())
+        .count();
+    assert_eq!(fragments.len(), 4 * searches);
+    for set in all() {
+        let asked = FeatureSet {
+            shadow: Shadow::Hard,
+            ..set
+        };
+        let canonical = asked.canonical();
+        assert_eq!(canonical.canonical(), canonical);
+        let searched = set.canonical().relief.is_search() && set.lights != Lights::None;
+        assert!(!searched || shaded(&canonical), "{}", canonical.name());
+        // Without one there is nothing that the same set without shadows has not.
+        assert!(
+            shaded(&canonical) || canonical == set.canonical(),
+            "{}",
+            canonical.name()
         );
     }
 }
@@ -151,6 +189,7 @@ fn all_effects_has_all_that_was_planned() {
     for planned in FeatureSet::reachable() {
         let every = planned.all_effects();
         let name = planned.name();
+        assert_eq!(every.shadow, planned.shadow, "{name}");
         assert!(every.specular || !planned.specular, "{name}");
         assert!(every.environment || !planned.environment, "{name}");
         assert!(every.has_normal() || !planned.has_normal(), "{name}");
@@ -205,6 +244,9 @@ fn each_technique_goes_with_what_its_article_has() {
         }
         if set.relief.is_slope() {
             assert!(set.normal == NormalSource::Map && !set.environment, "{name}");
+        }
+        if set.shadow != Shadow::None {
+            assert!(set.relief.is_search() && set.lights == Lights::Many, "{name}");
         }
         if set.relief == Relief::Displacement {
             assert!(set.normal == NormalSource::Geometric, "{name}");

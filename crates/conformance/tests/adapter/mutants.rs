@@ -22,6 +22,13 @@ struct Mutant {
 
 const MUTANTS: &[Mutant] = &[
     Mutant {
+        what: "light through the relief",
+        file: "entry/surface_fragment.wesl",
+        from: "color += seen * lights.items",
+        to: "color += lights.items",
+        filter: "surface/hardened/permutations:shading=blinn_phong",
+    },
+    Mutant {
         what: "the tangent frame transposed",
         file: "techniques/light_to_tangent.wesl",
         from: "return vec3f(dot(tangent, light), dot(bitangent_dir, light), dot(normal, light));",
@@ -290,8 +297,8 @@ const MUTANTS: &[Mutant] = &[
     Mutant {
         what: "a highlight of many lights dropped",
         file: "entry/surface_fragment.wesl",
-        from: "        @if(specular)\n        color += lights.items[index].radiance.rgb\n            * blinn_phong(normal, light_dir, view_dir, albedo.rgb, material.specular.rgb, material.shininess);",
-        to: "        @if(specular)\n        color += lights.items[index].radiance.rgb * (saturate(dot(normal, light_dir)) * albedo.rgb);",
+        from: "        @if(specular && !shadow)\n        color += lights.items[index].radiance.rgb\n            * blinn_phong(normal, light_dir, view_dir, albedo.rgb, material.specular.rgb, material.shininess);",
+        to: "        @if(specular && !shadow)\n        color += lights.items[index].radiance.rgb * (saturate(dot(normal, light_dir)) * albedo.rgb);",
         filter: "scene/planned:scene=gallery",
     },
     Mutant {

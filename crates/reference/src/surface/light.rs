@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::{Interpolants, Light, Material, Pass, Shading, normal_ts, reflected, sample, unit};
 use crate::dot3_single_pass::{self, Normaliser};
+use crate::relief_ray::HitRecord;
 use crate::vector::saturate;
 use crate::{Form, blinn_phong, emboss, light_to_tangent, wrap_lambert};
 
@@ -14,6 +15,8 @@ pub(super) struct Surface<'a> {
     pub(super) form: Form,
     /// Where the maps are read.
     pub(super) uv: DVec2,
+    /// How a search for that place ended.
+    pub(super) hit: Option<HitRecord>,
     pub(super) ambient_occlusion: f64,
     pub(super) albedo: DVec4,
     /// Unit, toward the eye.
@@ -72,7 +75,7 @@ impl Surface<'_> {
         let normal = unit(self.bent, self.form);
         let one = |light: &Light| {
             let (toward, radiance) = self.unit_toward(light);
-            radiance * self.reflected_light(normal, toward)
+            self.seen(toward) * radiance * self.reflected_light(normal, toward)
         };
         (ambient + lights.iter().map(one).sum::<DVec3>()).extend(self.albedo.w)
     }

@@ -1,11 +1,15 @@
-use bossage_assets::EdgeMode;
+use bossage_assets::{EdgeMode, HeightField};
 use glam::{DVec2, DVec3, DVec4};
 
-use super::{Fragment, Interpolants, Light, Material, Pass, Relief, Shading, Viewer, shade};
+use super::{
+    Fragment, Interpolants, Light, Material, Pass, Relief, SearchMaps, Shading, Shadow, Viewer, shade,
+};
 use crate::Form;
 use crate::cube::Seams;
 use crate::dot3_single_pass::Normaliser;
 use crate::environment_bump::Environment;
+use crate::relief_ray::Layer;
+use crate::relief_search::Search;
 use crate::texture::Texture;
 
 fn plain() -> Material {
@@ -17,6 +21,7 @@ fn plain() -> Material {
         height_map: None,
         search_maps: None,
         relief: Relief::None,
+        shadow: Shadow::None,
         ambient: DVec3::splat(0.5),
         specular: None,
         shininess: 1.0,
@@ -255,4 +260,77 @@ fn the_environment_is_mirrored_in_the_perturbed_normal() {
         ..material
     };
     assert_eq!(color(&bent, &ABOVE, dark, Form::Hardened).truncate(), DVec3::ZERO);
+}
+
+/// A wall of height 1 at column 32 of 64 over ground at ¼, seen straight from above, so that each place is met where it is.
+fn walled(shadow: Shadow) -> Material {
+    Material {
+        search_maps: Some(SearchMaps {
+            heights: HeightField::from_fn(64, 4, |x, _| if x == 32 { 1.0 } else { 0.25 }),
+            cones: None,
+            normal_z: None,
+        }),
+        relief: Relief::Search {
+            search: Search::Relief {
+                layers: 64,
+                refinements: 8,
+            },
+            layer: Layer::below(0.2),
+        },
+        shadow,
+        ..plain()
+    }
+}
+
+/// Red of the wall's ground so far before the crest, under a light toward +x.
+fn before_the_wall(material: &Material, distance: f64, toward: DVec3) -> f64 {
+    let at = Interpolants {
+        uv: DVec2::new(32.5 / 64.0 - distance, 0.5),
+        ..FACING
+    };
+    let light = Light::Directional {
+        toward: toward.normalize(),
+        radiance: DVec3::ONE,
+    };
+    match shade(material, &[light], &ABOVE, &at, Form::Hardened) {
+        Fragment::Color(color) => color.x,
+        Fragment::Discarded => panic!("an opaque material was cut"),
+    }
+}
+
+/// At 45° over a layer of 0.2 the shadow of ¾ of it is 0.15 long.
+#[test]
+fn a_wall_keeps_the_light_off_the_ground_before_it() {
+    let low = DVec3::new(1.0, 0.0, 1.0);
+    let [plain, hard] = [Shadow::None, Shadow::Hard { samples: 64 }].map(walled);
+    let lit = before_the_wall(&plain, 0.05, low);
+    assert_eq!(lit, before_the_wall(&hard, 0.2, low));
+    // Ambient light alone.
+    assert_eq!(before_the_wall(&hard, 0.05, low), 0.25);
+    // Where the wall's crest is as high as the light, half of a wide light is seen; a sample finds the crest to a 13th of its height.
+    let soft = walled(Shadow::Soft {
+        samples: 64,
+        half_width: 0.5,
+    });
+    let share = (before_the_wall(&soft, 0.15, low) - 0.25) / (lit - 0.25);
+    assert!((0.45..0.65).contains(&share), "{share}");
+    assert_eq!(before_the_wall(&soft, 0.05, low), 0.25);
+    assert_eq!(before_the_wall(&soft, 0.3, low), lit);
+}
+
+/// Without shadows a slope that faces a light below the polygon is lit.
+#[test]
+fn a_light_below_the_horizon_lights_no_relief() {
+    let tilted = Texture {
+        width: 1,
+        height: 1,
+        texels: vec![DVec4::new(1.0, 0.5, 0.5, 1.0)],
+    };
+    let below = DVec3::new(1.0, 0.0, -0.1);
+    let [plain, hard] = [Shadow::None, Shadow::Hard { samples: 4 }].map(|shadow| Material {
+        normal_map: Some(tilted.clone()),
+        ..walled(shadow)
+    });
+    assert!(before_the_wall(&plain, 0.2, below) > 0.7);
+    assert_eq!(before_the_wall(&hard, 0.2, below), 0.25);
 }

@@ -6,7 +6,7 @@ use bossage_shaders::{FeatureSet, LightingSpace, Shading, Stage};
 use crate::fixture::{Folder, LAMP, SUN, example, one_plane};
 
 /// Every member of the surface's uniform buffers and how many floats it takes.
-const UNIFORMS: [(&str, usize); 21] = [
+const UNIFORMS: [(&str, usize); 22] = [
     ("light.radiance", 4),
     ("light.vector", 4),
     ("lights.count", 4),
@@ -15,6 +15,7 @@ const UNIFORMS: [(&str, usize); 21] = [
     ("material.alpha_cutoff", 1),
     ("material.ambient", 4),
     ("material.emboss_step", 1),
+    ("material.light_half_width", 1),
     ("material.normal_decode", 2),
     ("material.occlusion", 1),
     ("material.relief", 4),
@@ -93,6 +94,7 @@ fn complete_for_the_plan_and_for_all_effects() {
         "height_to_normal.toml",
         "nothing.toml",
         "parallax_occlusion.toml",
+        "shadows.toml",
     ] {
         let scene = example(name);
         let plan = plan(&scene);

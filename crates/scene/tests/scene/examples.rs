@@ -52,7 +52,8 @@ fn every_example_loads_and_plans() {
             "gallery.toml",
             "height_to_normal.toml",
             "nothing.toml",
-            "parallax_occlusion.toml"
+            "parallax_occlusion.toml",
+            "shadows.toml"
         ]
     );
     for name in names {

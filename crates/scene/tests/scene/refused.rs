@@ -99,6 +99,48 @@ fn pins_that_cannot_be_honoured_are_named() {
             "blinn_phong",
         ),
         (
+            format!("{NORMAL}shadow = \"hard\""),
+            "shadow",
+            "there is no `materials[0].height`",
+            "add",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}technique = \"parallax_offset\"\nshadow = \"hard\""),
+            "shadow",
+            "`parallax_offset` finds no place",
+            "`relief`",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}shading = \"dot3_single_pass\"\nshadow = \"soft\""),
+            "shadow",
+            "do not go with shading `dot3_single_pass`",
+            "blinn_phong",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}light_samples = 4"),
+            "light_samples",
+            "there is no light_samples",
+            "set shadow to",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}shadow = \"hard\"\nlight_half_width = 0.5"),
+            "light_half_width",
+            "there is no light_half_width",
+            "`soft`",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}shadow = \"soft\"\nlight_half_width = 0.0"),
+            "light_half_width",
+            "0 is out of range",
+            "from 0.001 to 1000",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}shadow = \"medium\""),
+            "shadow",
+            "`medium` is not known",
+            "hard",
+        ),
+        (
             "shading = \"emboss\"".to_owned(),
             "shading",
             "needs `materials[0].height`",

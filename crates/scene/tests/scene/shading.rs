@@ -1,7 +1,7 @@
 //! Decisions on shading, slope relief, reflection and displacement: kept and dropped by content, with the numbers that say so.
 
 use bossage_scene::{EffectId, MaterialPlan, Plan, Scene, State, draws, draws_with, plan};
-use bossage_shaders::{Form, LightingSpace, NormalSource, Normaliser, Relief, Shading};
+use bossage_shaders::{Form, LightingSpace, NormalSource, Normaliser, Relief, Shading, Shadow};
 
 use crate::bad_input::folder;
 use crate::fixture::{Folder, LAMP, SUN, one_plane, only};
@@ -34,6 +34,7 @@ fn agrees(material: &MaterialPlan) {
         set.normaliser == Normaliser::Cube
     );
     assert_eq!(kept(EffectId::Relief), set.relief.shifts());
+    assert_eq!(kept(EffectId::Shadow), set.shadow != Shadow::None);
     assert_eq!(kept(EffectId::AmbientOcclusion), set.relief.is_slope());
     assert_eq!(kept(EffectId::Displacement), set.relief == Relief::Displacement);
     assert_eq!(kept(EffectId::Emboss), set.shading == Shading::Emboss);
@@ -62,6 +63,48 @@ fn embossing_of_constant_heights_is_dropped_and_one_texel_brings_it_back() {
     assert_eq!(state(only(&plan), EffectId::Emboss).0, State::Kept);
     assert!(state(only(&plan), EffectId::NormalMap).0 == State::Dropped);
     agrees(only(&plan));
+}
+
+#[test]
+fn shadows_go_with_a_search_and_have_the_rest_beside_them() {
+    let folder = folder();
+    folder.height("level.png", |_, _| 0.5);
+    let relief = format!("{COLOR}{HEIGHT}technique = \"relief\"\n");
+    let soft = format!("{relief}shadow = \"soft\"\nlight_samples = 9\nlight_half_width = 0.5");
+    let (scene, plan) = planned(&folder, SUN, &soft);
+    let one = only(&plan);
+    agrees(one);
+    assert_eq!(one.features.shadow, Shadow::Soft);
+    for id in [
+        EffectId::Specular,
+        EffectId::NormalMap,
+        EffectId::Environment,
+        EffectId::LightLoop,
+    ] {
+        let (kept, reason) = state(one, id);
+        assert!(
+            kept == State::Kept && reason.contains("changes nothing here"),
+            "{plan}"
+        );
+    }
+    let draw = draws(&scene, &plan).remove(0);
+    assert_eq!(draw.uniforms["material.search"][3], 9.0);
+    assert_eq!(draw.uniforms["material.light_half_width"], [0.5]);
+    let level = HEIGHT.replace("height.png", "level.png");
+    for (lights, material, says) in [
+        ("", format!("{relief}shadow = \"hard\""), "there is no light"),
+        (
+            SUN,
+            format!("{COLOR}{level}shadow = \"hard\""),
+            "no relief is drawn",
+        ),
+        (SUN, relief.clone(), "asks for none"),
+    ] {
+        let (_, plan) = planned(&folder, lights, &material);
+        agrees(only(&plan));
+        let (kept, reason) = state(only(&plan), EffectId::Shadow);
+        assert!(kept == State::Dropped && reason.contains(says), "{plan}");
+    }
 }
 
 #[test]

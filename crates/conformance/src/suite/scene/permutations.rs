@@ -71,9 +71,10 @@ pub fn cases(full: bool) -> impl Iterator<Item = Box<dyn Case>> {
 }
 
 /// The fields of a feature set, each as a number.
-fn fields(set: &FeatureSet) -> [u8; 11] {
+fn fields(set: &FeatureSet) -> [u8; 12] {
     [
         set.relief as u8,
+        set.shadow as u8,
         set.normal as u8,
         set.lights as u8,
         set.normaliser as u8,

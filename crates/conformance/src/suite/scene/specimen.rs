@@ -15,10 +15,10 @@ use bossage_assets::{ColorMap, CubeMap, HeightField, Mesh, NormalCodec, NormalMa
 use bossage_reference::relief_search::Search;
 use bossage_scene::{
     AlphaMode, Draw, Elevation, Environment, HeightSource, Level, Material, NormalSource, Normaliser, Scene,
-    Technique, TechniquePin, Texels, Texture,
+    Shadow, Technique, TechniquePin, Texels, Texture,
 };
 use bossage_shaders::{
-    Albedo, Alpha, FeatureSet, Lights, Normaliser as Normalises, Relief, Shading, Transform,
+    Albedo, Alpha, FeatureSet, Lights, Normaliser as Normalises, Relief, Shading, Shadow as Shades, Transform,
 };
 use glam::{DVec2, DVec3, DVec4, Mat4, Vec3};
 
@@ -82,7 +82,7 @@ position = [0.7, 0.4, 0.9]
 color = [0.5, 0.75, 0.65]
 "#;
 
-/// Where the lights are, and where they are for embossing: low, so that a part of the sheet has them below it.
+/// Where the lights are, and where they are for embossing and for shadows: low, so that a part of the sheet has them below it.
 const HIGH_SUN: &str = "[-0.35, 0.45, -0.8]";
 const LOW_SUN: &str = "[0.7, -0.5, -0.25]";
 const HIGH_LAMP: &str = "[0.7, 0.4, 0.9]";
@@ -113,7 +113,9 @@ pub(super) fn draw(features: &FeatureSet) -> Result<Draw, String> {
         *texture = Arc::new(floats(texture));
     }
     if features.lights == Lights::Many {
-        crowd(&mut draw, features.albedo == Albedo::Map);
+        // A march toward each light takes its time: two of them say as much.
+        let all_count = features.albedo == Albedo::Map && features.shadow == Shades::None;
+        crowd(&mut draw, all_count);
     }
     Ok(draw)
 }
@@ -146,7 +148,8 @@ fn scene(features: &FeatureSet) -> Result<Scene, String> {
         Lights::Point => LAMP.to_owned(),
         Lights::Many => format!("{SUN}{LAMP}"),
     };
-    let lights = if features.shading == Shading::Emboss {
+    let low = features.shading == Shading::Emboss || features.shadow != Shades::None;
+    let lights = if low {
         lights.replace(HIGH_SUN, LOW_SUN).replace(HIGH_LAMP, LOW_LAMP)
     } else {
         lights
@@ -236,6 +239,14 @@ fn furnish(material: &mut Material, features: &FeatureSet) -> Result<(), String>
         Relief::Exact => TechniquePin::Exact,
     };
     material.search = search(features.relief);
+    material.shadow = match features.shadow {
+        Shades::None => Shadow::None,
+        Shades::Hard => Shadow::Hard { samples: 4 },
+        Shades::Soft => Shadow::Soft {
+            samples: 3,
+            half_width: 0.6,
+        },
+    };
     material.shading = features.shading;
     material.form = features.form;
     material.occlusion = 2.5;

@@ -3,10 +3,10 @@
 use bossage_assets::HeightField;
 use bossage_assets::cone_map::ConeMap;
 use bossage_reference::relief_search::Search;
-use bossage_reference::surface::SearchMaps;
+use bossage_reference::surface::{SearchMaps, Shadow};
 use bossage_reference::texture::Texture;
 use bossage_scene::Draw;
-use bossage_shaders::{FeatureSet, Relief};
+use bossage_shaders::{FeatureSet, Relief, Shadow as Feature};
 
 use super::{plane, uniform};
 
@@ -30,6 +30,17 @@ pub(super) fn of(draw: &Draw, features: &FeatureSet) -> Option<Search> {
         | Relief::ParallaxSlopeAo
         | Relief::ParallaxSlopeAoDirected
         | Relief::Displacement => None,
+    }
+}
+
+/// What stands before the lights, with the settings of the draw's uniforms.
+pub(super) fn shadow(draw: &Draw, features: &FeatureSet) -> Shadow {
+    let [_, _, _, samples] = uniform::<4>(draw, "material.search").map(|number| number as u32);
+    let [half_width] = uniform(draw, "material.light_half_width").map(f64::from);
+    match features.shadow {
+        Feature::None => Shadow::None,
+        Feature::Hard => Shadow::Hard { samples },
+        Feature::Soft => Shadow::Soft { samples, half_width },
     }
 }
 
