@@ -7,7 +7,7 @@ use bossage_runner::{ComputeJob, ComputeOutput, Error, Machine, Value, push_cons
 use bossage_translate::manifest::Kind;
 
 use crate::bind::bindings;
-use crate::failure::{misfit, of_job};
+use crate::failure::of_job;
 use crate::machine::Embedded;
 use crate::texture;
 
@@ -38,7 +38,7 @@ pub(crate) fn run(machine: &Embedded, job: &ComputeJob<'_>) -> Result<ComputeOut
         bindings
             .read_bytes(&compiled.program, group, binding, &mut bytes)
             .ok_or_else(|| {
-                misfit(
+                Error::misfit(
                     job.shader.entry,
                     &one.binding.name,
                     "it can't be read back".to_owned(),

@@ -5,7 +5,6 @@ use bossage_translate::Stage;
 
 use crate::clip::{Clip, clip, guard_band};
 use crate::coverage::{Coverage, snap};
-use crate::failure::misfit;
 use crate::frame::Frame;
 use crate::shade::{Quad, Shading};
 use crate::stages::Open;
@@ -63,7 +62,7 @@ fn check(job: &RenderJob<'_>, draw: &Draw<'_>) -> Result<(), Error> {
     let entry = draw.fragment.entry;
     if draw.blend != Blend::Replace && !entry.outputs.iter().any(|output| output.location == Some(0)) {
         let problem = "the draw is blended, but nothing goes to @location(0)".to_owned();
-        return Err(misfit(entry, &entry.name, problem));
+        return Err(Error::misfit(entry, &entry.name, problem));
     }
     for output in &entry.outputs {
         let Some(location) = output.location else {
@@ -72,7 +71,7 @@ fn check(job: &RenderJob<'_>, draw: &Draw<'_>) -> Result<(), Error> {
         let Some(target) = job.targets.get(location as usize) else {
             let targets = job.targets.len();
             let problem = format!("it goes to @location({location}), the job has {targets} targets");
-            return Err(misfit(entry, &output.name, problem));
+            return Err(Error::misfit(entry, &output.name, problem));
         };
         let scalar = match target.format {
             TargetFormat::Rgba32Float | TargetFormat::Rgba8Unorm => "f32",
@@ -82,7 +81,7 @@ fn check(job: &RenderJob<'_>, draw: &Draw<'_>) -> Result<(), Error> {
         let short = format!("vec4{}", &scalar[..1]);
         if output.ty != short && output.ty != format!("vec4<{scalar}>") {
             let problem = format!("the target takes vec4<{scalar}>, it is {}", output.ty);
-            return Err(misfit(entry, &output.name, problem));
+            return Err(Error::misfit(entry, &output.name, problem));
         }
     }
     Ok(())
@@ -93,7 +92,7 @@ fn expect_stage(shader: &Shader<'_>, stage: Stage) -> Result<(), Error> {
         return Ok(());
     }
     let problem = format!("it is a {} shader, not a {stage} shader", shader.entry.stage);
-    Err(misfit(shader.entry, &shader.entry.name, problem))
+    Err(Error::misfit(shader.entry, &shader.entry.name, problem))
 }
 
 /// The triangles that are not culled.

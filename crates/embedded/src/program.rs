@@ -11,6 +11,7 @@ use bossage_translate::{Shader as Parsed, Source};
 use naga::{Block, Module, Statement};
 
 use crate::failure;
+use crate::select::NAME;
 
 /// A program, and what the rasteriser has to know of it.
 #[derive(Debug)]
@@ -43,15 +44,12 @@ impl Programs {
 }
 
 fn compile(job: &str, code: Code<'_>, entry: &str) -> Result<Compiled, Error> {
-    let invalid = |message: String| Error::Validation {
-        job: job.to_owned(),
-        message,
-    };
+    let invalid = |message: String| Error::invalid(job, message);
     let source = match code {
         Code::Wgsl(text) => Source::Wgsl(text.to_owned()),
         Code::Spirv(bytes) => Source::Spirv(bytes.to_vec()),
-        Code::Glsl(_) => return Err(failure::unsupported(job, "a reader of GLSL")),
-        Code::Msl(_) => return Err(failure::unsupported(job, "a reader of MSL")),
+        Code::Glsl(_) => return Err(Error::unsupported(job, NAME, "a reader of GLSL")),
+        Code::Msl(_) => return Err(Error::unsupported(job, NAME, "a reader of MSL")),
     };
     let parsed = Parsed::parse(job, &source).map_err(|diagnostic| invalid(diagnostic.to_string()))?;
     let (module, info) = parsed

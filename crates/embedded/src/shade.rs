@@ -5,7 +5,7 @@ use bossage_runner::{Draw, Error};
 use bossage_translate::manifest::{Kind, Varying};
 use rayon::prelude::*;
 
-use crate::failure::{misfit, unsupported};
+use crate::select::NAME;
 use crate::stages::Stages;
 use crate::triangle::{Triangle, Weights};
 use crate::vertex::{Values, Vertices};
@@ -72,7 +72,7 @@ impl<'a> Shading<'a> {
         let entry = draw.fragment.entry;
         if let Some(buffer) = entry.bindings.iter().find(|b| b.kind == Kind::StorageBuffer) {
             let what = format!("storage buffers that a fragment stage writes (`{}`)", buffer.name);
-            return Err(unsupported(job, what));
+            return Err(Error::unsupported(job, NAME, what));
         }
         let mut inputs = Vec::new();
         for varying in &entry.inputs {
@@ -134,7 +134,7 @@ fn input<'a>(
         });
     };
     let (vertex, fragment) = (draw.vertex.entry, draw.fragment.entry);
-    let wrong = |problem: String| Err(misfit(fragment, &varying.name, problem));
+    let wrong = |problem: String| Err(Error::misfit(fragment, &varying.name, problem));
     let given = vertex
         .outputs
         .iter()
@@ -154,7 +154,13 @@ fn input<'a>(
         Some("linear") => Interpolation::Linear,
         Some("perspective") | None if is_float => Interpolation::Perspective,
         None => Interpolation::Flat,
-        Some(other) => return Err(unsupported(job, format!("the interpolation `{other}`"))),
+        Some(other) => {
+            return Err(Error::unsupported(
+                job,
+                NAME,
+                format!("the interpolation `{other}`"),
+            ));
+        }
     };
     Ok(Some(Input::Location {
         location,

@@ -7,6 +7,7 @@ use bossage_runner::{
 };
 
 use crate::failure;
+use crate::select::NAME;
 
 /// A texture with all its levels.
 pub(crate) fn texture(job: &str, data: &TextureData) -> Result<Texture, Error> {
@@ -64,7 +65,7 @@ pub(crate) fn format(format: JobFormat) -> TexelFormat {
 /// A sampler.
 pub(crate) fn sampler(job: &str, settings: &SamplerSettings) -> Result<Sampler, Error> {
     if settings.anisotropy > 1 {
-        return Err(failure::unsupported(job, "anisotropic filtering"));
+        return Err(Error::unsupported(job, NAME, "anisotropic filtering"));
     }
     let filter = |filter: JobFilter| match filter {
         JobFilter::Nearest => Filter::Nearest,

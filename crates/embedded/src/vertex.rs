@@ -7,7 +7,6 @@ use bossage_bounds::{Column, F32, Scalar, Slot, StageInputs};
 use bossage_runner::{Draw, Error};
 
 use crate::clip::Clip;
-use crate::failure::misfit;
 use crate::stages::Stages;
 
 /// Vertices that run together.
@@ -97,7 +96,7 @@ impl Vertices {
         };
         let values = values.ok_or_else(|| {
             let entry = draw.vertex.entry;
-            misfit(entry, "position", "the vertex stage doesn't return it".to_owned())
+            Error::misfit(entry, "position", "the vertex stage doesn't return it".to_owned())
         })?;
         Ok(values.as_chunks::<4>().0.to_vec())
     }

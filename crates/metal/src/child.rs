@@ -5,8 +5,8 @@ use std::path::Path;
 use bossage_runner::Error;
 use bossage_translate::external::{Limits, run_raw};
 
-use crate::failure::gave_up;
 use crate::job::{BEGIN, END, Words};
+use crate::machine::NAME;
 
 /// Runs a program on a job whose answer has so many bytes between its first and its last word.
 pub(crate) fn answer(
@@ -21,7 +21,8 @@ pub(crate) fn answer(
         output_bytes: whole,
         ..*limits
     };
-    let raw = run_raw(program, &[], words.as_bytes(), &limits).map_err(|problem| gave_up(job, problem))?;
+    let raw = run_raw(program, &[], words.as_bytes(), &limits)
+        .map_err(|problem| Error::gave_up(job, NAME, problem))?;
     if !raw.success {
         let last = raw.errors.lines().rev().find(|line| !line.trim().is_empty());
         let message = format!(
@@ -29,7 +30,7 @@ pub(crate) fn answer(
             raw.status,
             last.unwrap_or("none")
         );
-        return Err(gave_up(job, message));
+        return Err(Error::gave_up(job, NAME, message));
     }
     let word = |at: usize| raw.output.get(at..at + 4);
     let is_whole = raw.output.len() == whole
@@ -39,7 +40,7 @@ pub(crate) fn answer(
     if !is_whole {
         let given = raw.output.len() + raw.surplus;
         let message = format!("its answer is {given} bytes of noise, {whole} bytes are expected");
-        return Err(gave_up(job, message));
+        return Err(Error::gave_up(job, NAME, message));
     }
     Ok(raw.output[4..whole - 4].to_vec())
 }

@@ -43,7 +43,6 @@
 mod caller;
 mod child;
 mod compute;
-mod failure;
 mod job;
 mod machine;
 mod program;

@@ -10,7 +10,6 @@ use bossage_runner::{
 use bossage_translate::external::{Limits, State, Validator};
 
 use crate::compute;
-use crate::failure::unsupported;
 use crate::program::Programs;
 use crate::stages::Compiled;
 use crate::tables::MAX_BUFFER_BYTES;
@@ -63,7 +62,7 @@ impl Metal {
     /// # Errors
     /// Why not: there is no clang, with the way to get it.
     pub fn new(tools: &[Validator], cache: Option<&Path>) -> Result<Self, Error> {
-        let open = |problem: String| unsupported(NAME, problem);
+        let open = |problem: String| Error::unsupported(NAME, NAME, problem);
         let reason = || {
             let clang = tools.iter().find(|tool| tool.tool == "clang");
             clang

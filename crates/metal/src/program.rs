@@ -9,7 +9,7 @@ use bossage_translate::external::{Native, Validator, compile_native};
 use bossage_translate::manifest::{Entry, Varying};
 
 use crate::caller;
-use crate::failure::{invalid, unsupported};
+use crate::machine::NAME;
 use crate::signature::{Declared, Role, Signature};
 
 /// Headers of the caller.
@@ -51,7 +51,7 @@ impl Programs {
     pub(crate) fn get(&self, job: &str, shader: &Shader<'_>) -> Result<Arc<Program>, Error> {
         let Code::Msl(text) = shader.code else {
             let what = format!("a compiler for the route `{}`: it takes MSL", shader.code.route());
-            return Err(unsupported(job, what));
+            return Err(Error::unsupported(job, NAME, what));
         };
         let key = (text.to_owned(), shader.entry_point().to_owned());
         let lock = || self.made.lock().unwrap_or_else(PoisonError::into_inner);
@@ -61,7 +61,7 @@ impl Programs {
         // Made without the lock: compiling takes long.
         let made = self
             .compile(shader, text)
-            .map_err(|problem| invalid(job, problem))?;
+            .map_err(|problem| Error::invalid(job, problem))?;
         Ok(Arc::clone(lock().entry(key).or_insert(Arc::new(made))))
     }
 

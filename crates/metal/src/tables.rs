@@ -6,8 +6,8 @@ use bossage_runner::{
 };
 use bossage_translate::manifest::{Binding, Kind};
 
-use crate::failure::{misfit, unsupported};
 use crate::job::Words;
+use crate::machine::NAME;
 use crate::texels;
 
 /// Bytes of a buffer: what WebGPU promises everywhere.
@@ -70,7 +70,11 @@ impl Tables {
                 }
                 Value::Texture(data) => texture(&mut textures, job, slot, data)?,
                 Value::StorageTexture(_) => {
-                    return Err(unsupported(job, format!("storage textures (`{}`)", binding.name)));
+                    return Err(Error::unsupported(
+                        job,
+                        NAME,
+                        format!("storage textures (`{}`)", binding.name),
+                    ));
                 }
                 Value::Sampler(settings) => sampler(&mut samplers, job, slot, settings)?,
             }
@@ -80,7 +84,7 @@ impl Tables {
                 let of = resolved.iter().find(|one| one.binding.name == *name);
                 match of.map(|one| &one.value) {
                     Some(Value::Storage(data)) => Ok((data.len() as u32).to_le_bytes()),
-                    _ => Err(misfit(
+                    _ => Err(Error::misfit(
                         entry,
                         name,
                         "its size is asked for, but it is no buffer".to_owned(),
@@ -156,7 +160,7 @@ fn texture(table: &mut Table, job: &str, slot: u32, data: &TextureData) -> Resul
 
 fn sampler(table: &mut Table, job: &str, slot: u32, settings: &SamplerSettings) -> Result<(), Error> {
     if settings.anisotropy > 1 {
-        return Err(unsupported(job, "anisotropic filtering"));
+        return Err(Error::unsupported(job, NAME, "anisotropic filtering"));
     }
     let address = match settings.address {
         AddressMode::Clamp => 0,

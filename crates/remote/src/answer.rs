@@ -44,24 +44,16 @@ pub(crate) enum Answer {
 
 /// Why a job failed, as the error that every machine has for it.
 pub(crate) fn error(kind: Kind, job: &str, failure: &str, message: String) -> Error {
-    let job = job.to_owned();
+    let name = job.to_owned();
     match failure {
-        "validation" => Error::Validation { job, message },
-        "memory" => Error::OutOfMemory { job },
-        "lost" => gave_up(kind, &job, format!("the device was lost: {message}")),
-        _ => Error::Internal { job, message },
+        "validation" => Error::invalid(job, message),
+        "memory" => Error::OutOfMemory { job: name },
+        "lost" => Error::gave_up(job, kind.name(), format!("the device was lost: {message}")),
+        _ => Error::Internal { job: name, message },
     }
 }
 
 /// The process ended, or was ended, under the job.
 pub(crate) fn stopped(kind: Kind, job: &str, stopped: Stopped) -> Error {
-    gave_up(kind, job, stopped.0)
-}
-
-fn gave_up(kind: Kind, job: &str, message: String) -> Error {
-    Error::GaveUp {
-        job: job.to_owned(),
-        machine: kind.name().to_owned(),
-        message,
-    }
+    Error::gave_up(job, kind.name(), stopped.0)
 }

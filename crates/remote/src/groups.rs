@@ -14,10 +14,7 @@ use crate::message::{Data, Entry, GlslSlot, Resource, Sampler, Stage};
 /// An entry point's text, exactly as it is given.
 pub(crate) fn stage(remote: &Remote, job: &str, shader: &Shader<'_>) -> Result<Stage, Error> {
     let text = remote.kind.text(shader.code);
-    let text = text.map_err(|message| Error::Validation {
-        job: job.to_owned(),
-        message,
-    })?;
+    let text = text.map_err(|message| Error::invalid(job, message))?;
     Ok(Stage {
         text: text.to_owned(),
         entry: shader.entry_point().to_owned(),

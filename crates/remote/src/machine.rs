@@ -42,11 +42,8 @@ impl Remote {
         let (features, capacity) = match hello {
             Hello::Open { features, capacity } => (features, capacity),
             Hello::Refused { message } => {
-                return Err(Error::Unsupported {
-                    job: kind.name().to_owned(),
-                    adapter: info.name.clone(),
-                    what: format!("what {} needs: {}", kind.name(), one_line(&message)),
-                });
+                let what = format!("what {} needs: {}", kind.name(), one_line(&message));
+                return Err(Error::unsupported(kind.name(), &info.name, what));
             }
         };
         Ok(Self {
@@ -76,11 +73,8 @@ impl Remote {
 
     /// Something that this machine lacks.
     pub(crate) fn lacks(&self, job: &str, what: String) -> Error {
-        Error::Unsupported {
-            job: job.to_owned(),
-            adapter: format!("{} through {}", self.info.name, self.kind.name()),
-            what,
-        }
+        let adapter = format!("{} through {}", self.info.name, self.kind.name());
+        Error::unsupported(job, &adapter, what)
     }
 
     /// Has a job done: the parts of its answer.

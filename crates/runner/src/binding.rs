@@ -221,7 +221,7 @@ impl Binder<'_> {
         within(self.job, "a buffer's size in bytes", data.len() as u64, limit)?;
         let ty = layout::buffer_type(resolved.binding.kind).ok_or_else(|| {
             let problem = "the manifest calls it no buffer".to_owned();
-            layout::misfit(resolved.entry, &resolved.binding.name, problem)
+            Error::misfit(resolved.entry, &resolved.binding.name, problem)
         })?;
         let buffer = upload::buffer(self.device, self.job, &data.bytes(), usage);
         Ok((ty, Resource::Buffer(buffer)))

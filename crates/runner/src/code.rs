@@ -4,7 +4,6 @@ use bossage_translate::Stage;
 use bossage_translate::manifest::{Binding, Entry};
 
 use crate::error::Error;
-use crate::layout;
 
 /// Shader code, by route.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -68,7 +67,7 @@ impl<'a> Shader<'a> {
             return Ok(());
         }
         let problem = format!("it is a {} shader, not a {stage} shader", self.entry.stage);
-        Err(layout::misfit(self.entry, &self.entry.name, problem))
+        Err(Error::misfit(self.entry, &self.entry.name, problem))
     }
 
     /// What the entry point is called in this code. WGSL is either the source, with the source's name, or emitted, with the

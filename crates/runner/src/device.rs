@@ -119,11 +119,7 @@ impl Device {
         if self.has(feature) {
             return Ok(());
         }
-        Err(Error::Unsupported {
-            job: job.to_owned(),
-            adapter: self.info.name.clone(),
-            what: what.to_owned(),
-        })
+        Err(Error::unsupported(job, &self.info.name, what))
     }
 
     /// Runs `work` so that every error of the device inside becomes an [`Error`] of this job. The device's own word goes

@@ -1,5 +1,7 @@
 //! What can go wrong when a shader is run, each variant naming the thing and, where there is one, the way out.
 
+use bossage_translate::manifest::Entry;
+
 /// A failure to run something.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -233,6 +235,45 @@ pub const HOW_TO_GET_AN_ADAPTER: &str = "a driver is needed, if only a software 
      libvulkan1 mesa-vulkan-drivers`, or `./x setup` in this repository";
 
 impl Error {
+    /// The machine of that name lacks something that the job needs.
+    #[must_use]
+    pub fn unsupported(job: &str, adapter: &str, what: impl Into<String>) -> Self {
+        Self::Unsupported {
+            job: job.to_owned(),
+            adapter: adapter.to_owned(),
+            what: what.into(),
+        }
+    }
+
+    /// The machine of that name began and gave up.
+    #[must_use]
+    pub fn gave_up(job: &str, machine: &str, message: impl Into<String>) -> Self {
+        Self::GaveUp {
+            job: job.to_owned(),
+            machine: machine.to_owned(),
+            message: message.into(),
+        }
+    }
+
+    /// The job is refused.
+    #[must_use]
+    pub fn invalid(job: &str, message: impl Into<String>) -> Self {
+        Self::Validation {
+            job: job.to_owned(),
+            message: message.into(),
+        }
+    }
+
+    /// An entry of a manifest that the machine can't serve, or that doesn't fit its job.
+    #[must_use]
+    pub fn misfit(entry: &Entry, name: &str, problem: impl Into<String>) -> Self {
+        Self::Interface {
+            entry: entry.name.clone(),
+            name: name.to_owned(),
+            problem: problem.into(),
+        }
+    }
+
     /// Whether the environment lacks what was demanded (exit code 3), rather than the job being wrong.
     #[must_use]
     pub fn is_missing_environment(&self) -> bool {

@@ -20,7 +20,7 @@ pub(crate) fn located(entry: &Entry, values: &[Varying]) -> Result<Vec<Located>,
         .filter_map(|value| value.location.map(|location| (value, location)));
     let read = |(value, location): (&Varying, u32)| {
         let components = float_components(&value.ty).ok_or_else(|| {
-            misfit(
+            Error::misfit(
                 entry,
                 &value.name,
                 format!("its type `{}` is not of 32-bit floats", value.ty),
@@ -46,7 +46,7 @@ pub(crate) fn outputs(entry: &Entry) -> Result<Vec<(&Varying, u32)>, Error> {
     let mut list: Vec<(&Varying, u32)> = located.collect();
     if let Some((odd, _)) = list.iter().find(|(output, _)| !fits_a_target(&output.ty)) {
         let problem = format!("its type `{}` is not of 32-bit floats or integers", odd.ty);
-        return Err(misfit(entry, &odd.name, problem));
+        return Err(Error::misfit(entry, &odd.name, problem));
     }
     list.sort_by_key(|(_, location)| *location);
     Ok(list)
@@ -154,14 +154,14 @@ pub(crate) fn misfit_of_texture(
     data: &TextureData,
 ) -> Result<Option<String>, Error> {
     let texture = binding.texture.as_ref().ok_or_else(|| {
-        misfit(
+        Error::misfit(
             entry,
             &binding.name,
             "the manifest doesn't describe it".to_owned(),
         )
     })?;
     if texture.multisampled {
-        return Err(misfit(
+        return Err(Error::misfit(
             entry,
             &binding.name,
             format!("the runner has no textures of type {}", binding.ty),
@@ -179,15 +179,6 @@ pub(crate) fn misfit_of_texture(
         _ => !is_depth && texture.sample_type == data.format.sample_type(),
     };
     Ok((!fits).then(|| format!("texture of {:?}", data.format)))
-}
-
-/// An entry of the manifest that the runner can't serve.
-pub(crate) fn misfit(entry: &Entry, name: &str, problem: String) -> Error {
-    Error::Interface {
-        entry: entry.name.clone(),
-        name: name.to_owned(),
-        problem,
-    }
 }
 
 #[cfg(test)]

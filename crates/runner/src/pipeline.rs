@@ -46,21 +46,17 @@ fn module(device: &Device, job: &str, shader: &Shader<'_>) -> Result<wgpu::Shade
             label: Some(job),
             source: wgpu::ShaderSource::Wgsl(text.into()),
         })),
-        Code::Glsl(_) => Err(Error::Validation {
-            job: job.to_owned(),
-            message: "Vulkan takes no GLSL: have it compiled first".to_owned(),
-        }),
+        Code::Glsl(_) => Err(Error::invalid(
+            job,
+            "Vulkan takes no GLSL: have it compiled first",
+        )),
         Code::Spirv(bytes) => {
             let module = crate::passthrough::read(job, bytes)?;
             let what = "the passing through of SPIR-V";
             device.require(job, wgpu::Features::PASSTHROUGH_SHADERS, what)?;
             Ok(crate::passthrough::create(&device.device, job, &module))
         }
-        Code::Msl(_) => Err(Error::Unsupported {
-            job: job.to_owned(),
-            adapter: device.info().name.clone(),
-            what: "a compiler of MSL".to_owned(),
-        }),
+        Code::Msl(_) => Err(Error::unsupported(job, &device.info().name, "a compiler of MSL")),
     })
 }
 

@@ -133,13 +133,13 @@ impl Draw<'_> {
         for (output, location) in layout::outputs(self.fragment.entry)? {
             let Some(target) = written.get_mut(location as usize) else {
                 let problem = format!("it goes to @location({location}), the job has {targets} targets");
-                return Err(layout::misfit(self.fragment.entry, &output.name, problem));
+                return Err(Error::misfit(self.fragment.entry, &output.name, problem));
             };
             *target = true;
         }
         if self.blend != Blend::Replace && written.first() != Some(&true) {
             let problem = "the draw is blended, but nothing goes to @location(0)".to_owned();
-            return Err(layout::misfit(
+            return Err(Error::misfit(
                 self.fragment.entry,
                 &self.fragment.entry.name,
                 problem,

@@ -224,7 +224,7 @@ impl<'a> Resolver<'_, 'a> {
         }
         let block = block(slot.entry, slot.binding).ok_or_else(|| {
             let problem = "the manifest doesn't describe its members".to_owned();
-            layout::misfit(slot.entry, &slot.binding.name, problem)
+            Error::misfit(slot.entry, &slot.binding.name, problem)
         })?;
         let bytes = uniforms::pack(self.job, block, &self.resources.uniforms)?;
         self.check_length(slot, bytes.len())?;

@@ -38,11 +38,8 @@ pub(super) fn open(
     program: Option<&Path>,
     missing: Option<String>,
 ) -> Result<Box<dyn Machine>, Error> {
-    let program = program.ok_or_else(|| Error::Unsupported {
-        job: kind.name().to_owned(),
-        adapter: info.name.clone(),
-        what: missing.unwrap_or_default(),
-    })?;
+    let missing = missing.unwrap_or_default();
+    let program = program.ok_or_else(|| Error::unsupported(kind.name(), &info.name, missing))?;
     Ok(Box::new(Remote::open(kind, program, info, Limits::default())?))
 }
 
