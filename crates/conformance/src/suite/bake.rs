@@ -16,6 +16,7 @@ use bossage_shaders::{Form, Kernel, Technique};
 use glam::{DVec2, DVec3};
 use rand::RngExt;
 
+use super::kernel_case::{KernelCase, twin_and_rules};
 use crate::bench::Bench;
 use crate::case::{Case, Outcome, with_causes};
 use crate::case_id::CaseId;
@@ -23,7 +24,6 @@ use crate::compare::{Comparison, Expected};
 use crate::dispatch::{Dispatch, Kept, byte_bounds};
 use crate::generate::random::stream;
 use crate::module::Module;
-use crate::oracle;
 use crate::route::Prepared;
 use crate::tolerance::UNDECIDED_LIMIT;
 
@@ -209,6 +209,20 @@ impl BakeCase {
         let alpha = (f64::from(field.texel(x, y)) * 255.0 + 0.5).trunc();
         Ok([bytes.x, bytes.y, bytes.z, alpha])
     }
+}
+
+impl KernelCase for BakeCase {
+    fn id(&self) -> &CaseId {
+        &self.id
+    }
+
+    fn basis(&self) -> Vec<&'static str> {
+        twin_and_rules()
+    }
+
+    fn kernels(&self) -> Vec<Kernel> {
+        vec![self.kernel]
+    }
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let module = bench.module(&Module::Kernel(self.kernel))?;
@@ -245,24 +259,5 @@ impl BakeCase {
         );
         let reason = outcome.reason.clone().or((different > 0).then_some(note));
         Ok(Outcome { reason, ..outcome })
-    }
-}
-
-impl Case for BakeCase {
-    fn id(&self) -> &CaseId {
-        &self.id
-    }
-
-    fn basis(&self) -> Vec<&'static str> {
-        let twin = std::iter::once("twin on the CPU");
-        twin.chain(oracle::BASIS).collect()
-    }
-
-    fn modules(&self) -> Result<Vec<Module>, String> {
-        Ok(vec![Module::Kernel(self.kernel)])
-    }
-
-    fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
     }
 }

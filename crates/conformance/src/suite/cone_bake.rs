@@ -14,6 +14,7 @@ use bossage_shaders::Kernel;
 use glam::DVec2;
 use rand::RngExt;
 
+use super::kernel_case::{KernelCase, TWIN};
 use crate::bench::Bench;
 use crate::bound::Bound;
 use crate::case::{Case, Outcome};
@@ -22,7 +23,6 @@ use crate::compare::{Comparison, Expected};
 use crate::cone_passes;
 use crate::dispatch::Dispatch;
 use crate::generate::random::stream;
-use crate::module::Module;
 use crate::oracle;
 use crate::tolerance::UNDECIDED_LIMIT;
 
@@ -167,6 +167,20 @@ impl ConeBake {
             .run(bench)
         })
     }
+}
+
+impl KernelCase for ConeBake {
+    fn id(&self) -> &CaseId {
+        &self.id
+    }
+
+    fn kernels(&self) -> Vec<Kernel> {
+        KERNELS.to_vec()
+    }
+
+    fn basis(&self) -> Vec<&'static str> {
+        vec![TWIN, oracle::BASIS[0]]
+    }
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let kernel = self.baked(bench)?;
@@ -202,23 +216,5 @@ impl ConeBake {
             format!("kernel and twin are apart by a factor of {apart:.4} at most, each within its bound");
         let reason = outcome.reason.clone().or((apart > 1.0).then_some(note));
         Ok(Outcome { reason, ..outcome })
-    }
-}
-
-impl Case for ConeBake {
-    fn id(&self) -> &CaseId {
-        &self.id
-    }
-
-    fn basis(&self) -> Vec<&'static str> {
-        vec!["twin on the CPU", oracle::BASIS[0]]
-    }
-
-    fn modules(&self) -> Result<Vec<Module>, String> {
-        Ok(KERNELS.map(Module::Kernel).to_vec())
-    }
-
-    fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
     }
 }

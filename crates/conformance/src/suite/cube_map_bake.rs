@@ -12,6 +12,7 @@ use bossage_bounds::{Accept, Scalar};
 use bossage_runner::{BufferData, Resources};
 use bossage_shaders::{Kernel, Probe};
 
+use super::kernel_case::{KernelCase, twin_and_rules};
 use crate::bench::Bench;
 use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
@@ -170,6 +171,20 @@ impl CubeMapBake {
             Depth::Sixteen => code_share(65_535.0),
         }
     }
+}
+
+impl KernelCase for CubeMapBake {
+    fn id(&self) -> &CaseId {
+        &self.id
+    }
+
+    fn basis(&self) -> Vec<&'static str> {
+        twin_and_rules()
+    }
+
+    fn kernels(&self) -> Vec<Kernel> {
+        vec![self.kernel()]
+    }
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let name = self.id.to_string();
@@ -195,24 +210,5 @@ impl CubeMapBake {
         );
         let reason = outcome.reason.clone().or((different > 0).then_some(note));
         Ok(Outcome { reason, ..outcome })
-    }
-}
-
-impl Case for CubeMapBake {
-    fn id(&self) -> &CaseId {
-        &self.id
-    }
-
-    fn basis(&self) -> Vec<&'static str> {
-        let twin = std::iter::once("twin on the CPU");
-        twin.chain(oracle::BASIS).collect()
-    }
-
-    fn modules(&self) -> Result<Vec<Module>, String> {
-        Ok(vec![Module::Kernel(self.kernel())])
-    }
-
-    fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
     }
 }

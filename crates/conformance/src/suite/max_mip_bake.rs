@@ -13,6 +13,7 @@ use bossage_runner::{BufferData, Resources};
 use bossage_shaders::Kernel;
 
 use super::bake::fields;
+use super::kernel_case::{KernelCase, twin_and_rules};
 use crate::bench::Bench;
 use crate::bound::Bound;
 use crate::case::{Case, Outcome};
@@ -20,7 +21,6 @@ use crate::case_id::CaseId;
 use crate::compare::{Comparison, Expected};
 use crate::dispatch::{Accepted, Dispatch, Kept};
 use crate::module::Module;
-use crate::oracle;
 use crate::tolerance::UNDECIDED_LIMIT;
 
 /// One field with one edge mode.
@@ -120,6 +120,41 @@ impl MaxMipBake {
         };
         self.given.iter().enumerate().map(level).collect()
     }
+}
+
+/// The reference's codes, and what an implementation may write.
+fn pair(truth: &reference::Level, written: &Accepted) -> Vec<Expected> {
+    let bound = |scalar: &Scalar<_>| match *scalar {
+        Scalar::Int(low, high) => Bound::between(low as f64, high as f64),
+        _ => Bound::OPEN,
+    };
+    let expected = truth.codes.iter().zip(written);
+    expected
+        .map(|(truth, written)| Expected {
+            truth: *truth,
+            bound: bound(written),
+        })
+        .collect()
+}
+
+/// A level as the kernels read it.
+fn words(level: &MaxCodes) -> Vec<u8> {
+    let words = level.codes.iter().map(|code| u32::from(*code));
+    words.flat_map(u32::to_le_bytes).collect()
+}
+
+impl KernelCase for MaxMipBake {
+    fn id(&self) -> &CaseId {
+        &self.id
+    }
+
+    fn basis(&self) -> Vec<&'static str> {
+        twin_and_rules()
+    }
+
+    fn kernels(&self) -> Vec<Kernel> {
+        vec![Kernel::MaxMipTexels, Kernel::MaxMip]
+    }
 
     fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let (name, given) = (
@@ -156,47 +191,5 @@ impl MaxMipBake {
             nodes += twin.codes.len();
         }
         Ok(Outcome::of(nodes, comparison, UNDECIDED_LIMIT))
-    }
-}
-
-/// The reference's codes, and what an implementation may write.
-fn pair(truth: &reference::Level, written: &Accepted) -> Vec<Expected> {
-    let bound = |scalar: &Scalar<_>| match *scalar {
-        Scalar::Int(low, high) => Bound::between(low as f64, high as f64),
-        _ => Bound::OPEN,
-    };
-    let expected = truth.codes.iter().zip(written);
-    expected
-        .map(|(truth, written)| Expected {
-            truth: *truth,
-            bound: bound(written),
-        })
-        .collect()
-}
-
-/// A level as the kernels read it.
-fn words(level: &MaxCodes) -> Vec<u8> {
-    let words = level.codes.iter().map(|code| u32::from(*code));
-    words.flat_map(u32::to_le_bytes).collect()
-}
-
-impl Case for MaxMipBake {
-    fn id(&self) -> &CaseId {
-        &self.id
-    }
-
-    fn basis(&self) -> Vec<&'static str> {
-        let twin = std::iter::once("twin on the CPU");
-        twin.chain(oracle::BASIS).collect()
-    }
-
-    fn modules(&self) -> Result<Vec<Module>, String> {
-        Ok([Kernel::MaxMipTexels, Kernel::MaxMip]
-            .map(Module::Kernel)
-            .to_vec())
-    }
-
-    fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
     }
 }

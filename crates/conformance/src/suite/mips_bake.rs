@@ -15,6 +15,7 @@ use bossage_shaders::Kernel;
 use glam::{DVec3, DVec4, Vec4};
 use rand::RngExt;
 
+use super::kernel_case::{KernelCase, twin_and_rules};
 use crate::bench::Bench;
 use crate::case::{Case, Outcome};
 use crate::case_id::CaseId;
@@ -22,7 +23,6 @@ use crate::compare::{Comparison, Expected};
 use crate::dispatch::{Dispatch, Kept, byte_bounds, float_bounds};
 use crate::generate::random::stream;
 use crate::module::Module;
-use crate::oracle;
 use crate::tolerance::UNDECIDED_LIMIT;
 
 /// What is expected of each number of each texel.
@@ -318,21 +318,6 @@ impl MipsBake {
         });
         [x, y, z, (mean.w * 255.0 + 0.5).trunc()]
     }
-
-    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
-        let mut tally = Tally::default();
-        self.judge_base(bench, &mut tally)?;
-        self.judge_levels(bench, &mut tally)?;
-        self.judge_bytes(bench, &mut tally)?;
-        let outcome = Outcome::of(tally.texels, tally.comparison, UNDECIDED_LIMIT);
-        let note = format!(
-            "{} of {} numbers differ from the twin, within what is allowed",
-            tally.different,
-            4 * tally.texels
-        );
-        let reason = outcome.reason.clone().or((tally.different > 0).then_some(note));
-        Ok(Outcome { reason, ..outcome })
-    }
 }
 
 /// What is expected of averages that a kernel writes to `smaller`.
@@ -381,26 +366,35 @@ fn four(floats: &[f32]) -> impl Iterator<Item = [f32; 4]> {
     floats.as_chunks::<4>().0.iter().copied()
 }
 
-impl Case for MipsBake {
+impl KernelCase for MipsBake {
     fn id(&self) -> &CaseId {
         &self.id
     }
 
     fn basis(&self) -> Vec<&'static str> {
-        let twin = std::iter::once("twin on the CPU");
-        twin.chain(oracle::BASIS).collect()
+        twin_and_rules()
     }
 
-    fn modules(&self) -> Result<Vec<Module>, String> {
-        let kernels = [
+    fn kernels(&self) -> Vec<Kernel> {
+        vec![
             Kernel::NormalMipsDecode,
             Kernel::NormalMips,
             Kernel::NormalMipsEncode,
-        ];
-        Ok(kernels.map(Module::Kernel).to_vec())
+        ]
     }
 
-    fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
+    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
+        let mut tally = Tally::default();
+        self.judge_base(bench, &mut tally)?;
+        self.judge_levels(bench, &mut tally)?;
+        self.judge_bytes(bench, &mut tally)?;
+        let outcome = Outcome::of(tally.texels, tally.comparison, UNDECIDED_LIMIT);
+        let note = format!(
+            "{} of {} numbers differ from the twin, within what is allowed",
+            tally.different,
+            4 * tally.texels
+        );
+        let reason = outcome.reason.clone().or((tally.different > 0).then_some(note));
+        Ok(Outcome { reason, ..outcome })
     }
 }

@@ -5,6 +5,7 @@ pub mod bake;
 pub mod cone_bake;
 pub mod cube_map_bake;
 pub mod defect;
+mod kernel_case;
 pub mod max_mip_bake;
 pub mod mesh;
 pub mod mikktspace;

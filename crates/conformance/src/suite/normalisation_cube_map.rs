@@ -22,6 +22,7 @@ use bossage_shaders::Kernel;
 use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
+use super::kernel_case::KernelCase;
 use crate::bench::Bench;
 use crate::bound::Bound;
 use crate::case::{Case, Outcome, with_causes};
@@ -230,34 +231,6 @@ impl CubeCase {
         Ok(each.map(of).collect())
     }
 
-    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
-        let (name, texture) = (self.id.to_string(), self.texture()?);
-        let dispatch = self.dispatch(&name, &texture);
-        let colours = dispatch.run(bench)?.floats(COLOURS);
-        let module = bench.module(&Module::Kernel(self.kernel))?;
-        let expected = self
-            .expected
-            .for_text(module.text(), || self.expected(&module, &dispatch))?;
-        let directions = self.directions();
-        let found = colours.as_chunks::<4>().0;
-        if found.len() != directions.len() {
-            return Err(format!("{} colours of {}", found.len(), directions.len()));
-        }
-        let known = deviation::of(SUBJECT, bench.route, bench.device.info()).filter(|_| !self.is_in_face());
-        let mut judged = Judged::new(known);
-        for ((direction, got), expected) in directions.iter().zip(found).zip(expected.iter()) {
-            judged.item(&self.item(direction), got, expected);
-        }
-        let errors = |colour: &dyn Fn(usize) -> DVec3| -> Angles {
-            let of = |at: usize| angle_deg(2.0 * colour(at) - 1.0, vector(&directions[at]));
-            Angles::of(&(0..directions.len()).map(of).collect::<Vec<_>>())
-        };
-        let got = errors(&|at| vector(&found[at]));
-        let truth = errors(&|at| DVec3::from_array([0, 1, 2].map(|channel| expected[at][channel].truth)));
-        let outcome = judged.outcome(directions.len(), UNDECIDED_LIMIT);
-        Ok(self.with_angles(outcome, got, truth))
-    }
-
     /// Adds what the angle errors are to the report, and fails where they are not what they should be.
     fn with_angles(&self, outcome: Outcome, got: Angles, truth: Angles) -> Outcome {
         let said = |angles: Angles| format!("rms {:.4}°, largest {:.3}°", angles.rms, angles.max);
@@ -320,7 +293,7 @@ impl Texels {
     }
 }
 
-impl Case for CubeCase {
+impl KernelCase for CubeCase {
     fn id(&self) -> &CaseId {
         &self.id
     }
@@ -333,12 +306,36 @@ impl Case for CubeCase {
         ]
     }
 
-    fn modules(&self) -> Result<Vec<Module>, String> {
-        Ok(vec![Module::Kernel(self.kernel)])
+    fn kernels(&self) -> Vec<Kernel> {
+        vec![self.kernel]
     }
 
-    fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
+    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
+        let (name, texture) = (self.id.to_string(), self.texture()?);
+        let dispatch = self.dispatch(&name, &texture);
+        let colours = dispatch.run(bench)?.floats(COLOURS);
+        let module = bench.module(&Module::Kernel(self.kernel))?;
+        let expected = self
+            .expected
+            .for_text(module.text(), || self.expected(&module, &dispatch))?;
+        let directions = self.directions();
+        let found = colours.as_chunks::<4>().0;
+        if found.len() != directions.len() {
+            return Err(format!("{} colours of {}", found.len(), directions.len()));
+        }
+        let known = deviation::of(SUBJECT, bench.route, bench.device.info()).filter(|_| !self.is_in_face());
+        let mut judged = Judged::new(known);
+        for ((direction, got), expected) in directions.iter().zip(found).zip(expected.iter()) {
+            judged.item(&self.item(direction), got, expected);
+        }
+        let errors = |colour: &dyn Fn(usize) -> DVec3| -> Angles {
+            let of = |at: usize| angle_deg(2.0 * colour(at) - 1.0, vector(&directions[at]));
+            Angles::of(&(0..directions.len()).map(of).collect::<Vec<_>>())
+        };
+        let got = errors(&|at| vector(&found[at]));
+        let truth = errors(&|at| DVec3::from_array([0, 1, 2].map(|channel| expected[at][channel].truth)));
+        let outcome = judged.outcome(directions.len(), UNDECIDED_LIMIT);
+        Ok(self.with_angles(outcome, got, truth))
     }
 }
 

@@ -22,7 +22,7 @@ use crate::case_id::CaseId;
 use crate::compare::Comparison;
 use crate::dispatch::Filtering;
 use crate::generate::random::stream;
-use crate::module::Module;
+use crate::suite::kernel_case::KernelCase;
 
 /// Views of any azimuth at each angle, in each setting.
 const VIEWS: usize = 20;
@@ -61,44 +61,6 @@ impl ConeCase {
             .with("heights", search.heights.id())
             .with("map", map);
         Self { id, search, field }
-    }
-
-    pub(super) fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
-        let (name, texture) = (self.id.to_string(), setting::texture(&self.field));
-        let ideal = setting::filtering(bench.route, self.search.heights) == Filtering::Ideal;
-        let mut rng = stream(&name, 1);
-        let (mut rays, mut open, mut met) = (0, 0, 0);
-        for setting in setting::of(self.search.technique) {
-            let setting = Setting {
-                steps: STEPS,
-                refinements: REFINEMENTS,
-                ..setting
-            };
-            let beside = Beside::of(self.search.technique, &self.field, setting.edge);
-            let views = views(VIEWS, &mut rng);
-            let rig = Rig {
-                name: &name,
-                search: self.search,
-                setting: &setting,
-                texture: &texture,
-                beside: beside.as_ref(),
-            };
-            for (view, got) in views.iter().zip(rig.hits(bench, &views)?) {
-                let verdict = self
-                    .promises(&setting, view, &got, ideal)
-                    .map_err(|broken| format!("{broken}: {view:?} in {setting:?} met {got:?}"))?;
-                open += usize::from(verdict == Verdict::Open);
-                met += usize::from(verdict == Verdict::Met);
-            }
-            rays += views.len();
-        }
-        let mut comparison = Comparison::of_property(rays);
-        comparison.undecided = open;
-        let note = format!("{met} of {rays} rays met the surface, {open} lie within rounding of the limit");
-        Ok(Outcome {
-            reason: Some(note),
-            ..Outcome::of(rays, comparison, 1.0)
-        })
     }
 
     /// Holds one record to the promises.
@@ -154,7 +116,7 @@ enum Verdict {
     Open,
 }
 
-impl Case for ConeCase {
+impl KernelCase for ConeCase {
     fn id(&self) -> &CaseId {
         &self.id
     }
@@ -163,11 +125,45 @@ impl Case for ConeCase {
         vec!["reference f64", "cones hold none of the surface"]
     }
 
-    fn modules(&self) -> Result<Vec<Module>, String> {
-        Ok(vec![Module::Kernel(Kernel::ReliefHits(self.search))])
+    fn kernels(&self) -> Vec<Kernel> {
+        vec![Kernel::ReliefHits(self.search)]
     }
 
-    fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
+    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
+        let (name, texture) = (self.id.to_string(), setting::texture(&self.field));
+        let ideal = setting::filtering(bench.route, self.search.heights) == Filtering::Ideal;
+        let mut rng = stream(&name, 1);
+        let (mut rays, mut open, mut met) = (0, 0, 0);
+        for setting in setting::of(self.search.technique) {
+            let setting = Setting {
+                steps: STEPS,
+                refinements: REFINEMENTS,
+                ..setting
+            };
+            let beside = Beside::of(self.search.technique, &self.field, setting.edge);
+            let views = views(VIEWS, &mut rng);
+            let rig = Rig {
+                name: &name,
+                search: self.search,
+                setting: &setting,
+                texture: &texture,
+                beside: beside.as_ref(),
+            };
+            for (view, got) in views.iter().zip(rig.hits(bench, &views)?) {
+                let verdict = self
+                    .promises(&setting, view, &got, ideal)
+                    .map_err(|broken| format!("{broken}: {view:?} in {setting:?} met {got:?}"))?;
+                open += usize::from(verdict == Verdict::Open);
+                met += usize::from(verdict == Verdict::Met);
+            }
+            rays += views.len();
+        }
+        let mut comparison = Comparison::of_property(rays);
+        comparison.undecided = open;
+        let note = format!("{met} of {rays} rays met the surface, {open} lie within rounding of the limit");
+        Ok(Outcome {
+            reason: Some(note),
+            ..Outcome::of(rays, comparison, 1.0)
+        })
     }
 }

@@ -25,7 +25,7 @@ use crate::case::{Case, Outcome};
 use crate::case_id::CaseId;
 use crate::compare::Comparison;
 use crate::generate::random::stream;
-use crate::module::Module;
+use crate::suite::kernel_case::KernelCase;
 
 /// Views of any azimuth at each angle, in each setting.
 const VIEWS: usize = 120;
@@ -119,7 +119,47 @@ impl ExactCase {
         }
     }
 
-    pub(super) fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
+    /// How far off a record is, in texels.
+    fn error(
+        &self,
+        (ray, status, answers): &(Ray, Status, Answers),
+        [u, v, t, got]: &[f32; HIT_FLOATS],
+    ) -> Result<f64, Fault> {
+        if *got != status.number() as f32 {
+            return Err(Fault::Status {
+                got: *got,
+                wanted: status.number(),
+            });
+        }
+        let uv = DVec2::new(f64::from(*u), f64::from(*v));
+        let sides = DVec2::new(f64::from(self.field.width), f64::from(self.field.height));
+        let apart = ((uv - ray.at(f64::from(*t))) * sides).length();
+        let texels = answers.error_texels(uv);
+        // Not a number is nowhere.
+        if apart.is_nan() || apart > TOLERANCE_TEXELS {
+            Err(Fault::OffTheRay { texels: apart })
+        } else if texels > TOLERANCE_TEXELS {
+            Err(Fault::Place { texels })
+        } else {
+            Ok(texels)
+        }
+    }
+}
+
+impl KernelCase for ExactCase {
+    fn id(&self) -> &CaseId {
+        &self.id
+    }
+
+    fn basis(&self) -> Vec<&'static str> {
+        vec!["reference f64", "0.01 texel of a hit of a ray within 4 ULP"]
+    }
+
+    fn kernels(&self) -> Vec<Kernel> {
+        vec![Kernel::ReliefHits(self.search)]
+    }
+
+    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
         let (name, texture) = (self.id.to_string(), setting::texture(&self.field));
         let (mut rays, mut grazing, mut worst) = (0, 0, 0.0f64);
         for part in self.parts() {
@@ -154,49 +194,5 @@ impl ExactCase {
         let note = format!("at most {worst:.5} texels off; {grazing} of {rays} rays graze");
         let reason = outcome.reason.clone().or(Some(note));
         Ok(Outcome { reason, ..outcome })
-    }
-
-    /// How far off a record is, in texels.
-    fn error(
-        &self,
-        (ray, status, answers): &(Ray, Status, Answers),
-        [u, v, t, got]: &[f32; HIT_FLOATS],
-    ) -> Result<f64, Fault> {
-        if *got != status.number() as f32 {
-            return Err(Fault::Status {
-                got: *got,
-                wanted: status.number(),
-            });
-        }
-        let uv = DVec2::new(f64::from(*u), f64::from(*v));
-        let sides = DVec2::new(f64::from(self.field.width), f64::from(self.field.height));
-        let apart = ((uv - ray.at(f64::from(*t))) * sides).length();
-        let texels = answers.error_texels(uv);
-        // Not a number is nowhere.
-        if apart.is_nan() || apart > TOLERANCE_TEXELS {
-            Err(Fault::OffTheRay { texels: apart })
-        } else if texels > TOLERANCE_TEXELS {
-            Err(Fault::Place { texels })
-        } else {
-            Ok(texels)
-        }
-    }
-}
-
-impl Case for ExactCase {
-    fn id(&self) -> &CaseId {
-        &self.id
-    }
-
-    fn basis(&self) -> Vec<&'static str> {
-        vec!["reference f64", "0.01 texel of a hit of a ray within 4 ULP"]
-    }
-
-    fn modules(&self) -> Result<Vec<Module>, String> {
-        Ok(vec![Module::Kernel(Kernel::ReliefHits(self.search))])
-    }
-
-    fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
     }
 }

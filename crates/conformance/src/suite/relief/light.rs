@@ -30,6 +30,7 @@ use crate::generate::random::stream;
 use crate::module::Module;
 use crate::oracle;
 use crate::route::Prepared;
+use crate::suite::kernel_case::KernelCase;
 use crate::tolerance::UNDECIDED_LIMIT;
 
 /// Views of any azimuth at each angle, for each light.
@@ -132,32 +133,6 @@ impl LightCase {
             field,
             expected: Default::default(),
         }
-    }
-
-    pub(super) fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
-        let module = bench.module(&Module::Kernel(Kernel::ReliefLight(self.light)))?;
-        let texture = setting::texture(&self.field);
-        let filtering = setting::filtering(bench.route, self.light.heights);
-        let parts = self.expected[usize::from(filtering == Filtering::Ideal)]
-            .for_text(module.text(), || self.parts(&module, &texture, filtering))?;
-        let name = self.id.to_string();
-        let (mut comparison, mut records, mut touchy) = (Comparison::default(), 0, 0);
-        for part in parts.iter() {
-            let seen = self.dispatch(&name, part, &texture).run(bench)?.floats(SEEN);
-            if seen.len() != part.hits.len() {
-                return Err(format!("{} answers of {}", seen.len(), part.hits.len()));
-            }
-            for ((hit, got), expected) in part.hits.iter().zip(&seen).zip(&part.expected) {
-                let [u, v, t, _] = hit.map(f32::from_bits);
-                let [x, y, z] = part.light.dir_ts;
-                let samples = part.light.samples as f32;
-                comparison.item(&[u, v, t, x, y, z, samples], &[*got], &[*expected]);
-            }
-            records += part.hits.len();
-            touchy += part.touchy;
-        }
-        let limit = UNDECIDED_LIMIT + touchy as f64 / records as f64;
-        Ok(Outcome::of(records, comparison, limit))
     }
 
     /// Both oracles of every record.
@@ -339,7 +314,7 @@ fn packed([u, v]: [f32; 2], t: f32, status: Status) -> [u32; 4] {
     [u.to_bits(), v.to_bits(), t.to_bits(), status.number()]
 }
 
-impl Case for LightCase {
+impl KernelCase for LightCase {
     fn id(&self) -> &CaseId {
         &self.id
     }
@@ -348,11 +323,33 @@ impl Case for LightCase {
         oracle::BASIS.to_vec()
     }
 
-    fn modules(&self) -> Result<Vec<Module>, String> {
-        Ok(vec![Module::Kernel(Kernel::ReliefLight(self.light))])
+    fn kernels(&self) -> Vec<Kernel> {
+        vec![Kernel::ReliefLight(self.light)]
     }
 
-    fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
+    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
+        let module = bench.module(&Module::Kernel(Kernel::ReliefLight(self.light)))?;
+        let texture = setting::texture(&self.field);
+        let filtering = setting::filtering(bench.route, self.light.heights);
+        let parts = self.expected[usize::from(filtering == Filtering::Ideal)]
+            .for_text(module.text(), || self.parts(&module, &texture, filtering))?;
+        let name = self.id.to_string();
+        let (mut comparison, mut records, mut touchy) = (Comparison::default(), 0, 0);
+        for part in parts.iter() {
+            let seen = self.dispatch(&name, part, &texture).run(bench)?.floats(SEEN);
+            if seen.len() != part.hits.len() {
+                return Err(format!("{} answers of {}", seen.len(), part.hits.len()));
+            }
+            for ((hit, got), expected) in part.hits.iter().zip(&seen).zip(&part.expected) {
+                let [u, v, t, _] = hit.map(f32::from_bits);
+                let [x, y, z] = part.light.dir_ts;
+                let samples = part.light.samples as f32;
+                comparison.item(&[u, v, t, x, y, z, samples], &[*got], &[*expected]);
+            }
+            records += part.hits.len();
+            touchy += part.touchy;
+        }
+        let limit = UNDECIDED_LIMIT + touchy as f64 / records as f64;
+        Ok(Outcome::of(records, comparison, limit))
     }
 }

@@ -29,6 +29,7 @@ use crate::generate::random::stream;
 use crate::module::Module;
 use crate::oracle;
 use crate::route::Prepared;
+use crate::suite::kernel_case::KernelCase;
 use crate::suite::probe::form_of;
 use crate::tolerance::UNDECIDED_LIMIT;
 
@@ -76,34 +77,6 @@ impl MarchCase {
             field,
             expected: Default::default(),
         }
-    }
-
-    pub(super) fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
-        let module = bench.module(&Module::Kernel(Kernel::ReliefHits(self.search)))?;
-        let texture = setting::texture(&self.field);
-        let filtering = setting::filtering(bench.route, self.search.heights);
-        let parts = self.expected[usize::from(filtering == Filtering::Ideal)]
-            .for_text(module.text(), || self.parts(&module, &texture, filtering))?;
-        let name = self.id.to_string();
-        let (mut comparison, mut rays, mut touchy) = (Comparison::default(), 0, 0);
-        for part in parts.iter() {
-            let rig = Rig {
-                name: &name,
-                search: self.search,
-                setting: &part.setting,
-                texture: &texture,
-                beside: part.beside.as_ref(),
-            };
-            let got = rig.hits(bench, &part.views)?;
-            for ((view, got), expected) in part.views.iter().zip(&got).zip(&part.expected) {
-                comparison.item(&part.setting.item(view), got, expected);
-            }
-            rig.not_finite(bench)?;
-            rays += part.views.len();
-            touchy += part.touchy;
-        }
-        let limit = UNDECIDED_LIMIT + touchy as f64 / rays as f64;
-        Ok(Outcome::of(rays, comparison, limit))
     }
 
     /// Both oracles of every ray.
@@ -177,7 +150,7 @@ fn bounds(hits: &[Scalar<Accept>]) -> Vec<[Bound; HIT_FLOATS]> {
         .collect()
 }
 
-impl Case for MarchCase {
+impl KernelCase for MarchCase {
     fn id(&self) -> &CaseId {
         &self.id
     }
@@ -186,11 +159,35 @@ impl Case for MarchCase {
         oracle::BASIS.to_vec()
     }
 
-    fn modules(&self) -> Result<Vec<Module>, String> {
-        Ok(vec![Module::Kernel(Kernel::ReliefHits(self.search))])
+    fn kernels(&self) -> Vec<Kernel> {
+        vec![Kernel::ReliefHits(self.search)]
     }
 
-    fn run(&self, bench: &Bench<'_>) -> Outcome {
-        self.judge(bench).unwrap_or_else(Outcome::failed)
+    fn judge(&self, bench: &Bench<'_>) -> Result<Outcome, String> {
+        let module = bench.module(&Module::Kernel(Kernel::ReliefHits(self.search)))?;
+        let texture = setting::texture(&self.field);
+        let filtering = setting::filtering(bench.route, self.search.heights);
+        let parts = self.expected[usize::from(filtering == Filtering::Ideal)]
+            .for_text(module.text(), || self.parts(&module, &texture, filtering))?;
+        let name = self.id.to_string();
+        let (mut comparison, mut rays, mut touchy) = (Comparison::default(), 0, 0);
+        for part in parts.iter() {
+            let rig = Rig {
+                name: &name,
+                search: self.search,
+                setting: &part.setting,
+                texture: &texture,
+                beside: part.beside.as_ref(),
+            };
+            let got = rig.hits(bench, &part.views)?;
+            for ((view, got), expected) in part.views.iter().zip(&got).zip(&part.expected) {
+                comparison.item(&part.setting.item(view), got, expected);
+            }
+            rig.not_finite(bench)?;
+            rays += part.views.len();
+            touchy += part.touchy;
+        }
+        let limit = UNDECIDED_LIMIT + touchy as f64 / rays as f64;
+        Ok(Outcome::of(rays, comparison, limit))
     }
 }
