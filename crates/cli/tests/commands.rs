@@ -65,6 +65,49 @@ fn doctor_names_every_tool_with_a_way_to_get_it() {
     }
 }
 
+/// Python reads this module first: to it, there is no library of that name.
+const NO_EGL: &str = "
+import ctypes
+
+class CDLL(ctypes.CDLL):
+    def __init__(self, name, *args, **kwargs):
+        if name.startswith('libEGL'):
+            raise OSError(f'{name}: cannot open shared object file: No such file or directory')
+        super().__init__(name, *args, **kwargs)
+
+ctypes.CDLL = CDLL
+";
+
+#[test]
+fn without_egl_route_opengl_says_what_is_missing_and_how_to_get_it() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("sitecustomize.py"), NO_EGL).unwrap();
+    let run = |arguments: &[&str]| -> Run {
+        let mut command = tool::command(arguments);
+        command.env("PYTHONPATH", folder.path());
+        command.output().unwrap().into()
+    };
+    // Without Python it is Python that is missing, with the same way to get both.
+    let words = ["apt install python3 libegl1", "./x setup --full"];
+    let demanded = run(&["conform", "codec_snorm", "--route", "opengl"])
+        .exits(3)
+        .says(&words);
+    assert!(demanded.stdout.is_empty(), "{}", demanded.stdout);
+    let listed = run(&["doctor"]).exits(0).stdout;
+    let line = listed
+        .lines()
+        .find(|line| line.starts_with("DISABLED  opengl: "))
+        .unwrap_or_else(|| panic!("{listed}"));
+    assert!(words.iter().all(|word| line.contains(word)), "{line}");
+    let routes = parsed(&run(&["doctor", "--json"]).exits(0).stdout)["routes"].clone();
+    let opengl = routes
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|one| one["route"] == "opengl");
+    assert!(opengl.unwrap()["reason"].is_string(), "{routes}");
+}
+
 #[test]
 fn check_passes_good_shaders_and_fails_bad_ones() {
     let folder = tempfile::tempdir().unwrap();

@@ -23,7 +23,10 @@ EGL = None
 def make_current():
     """Makes a context of OpenGL 4.5 core without a display current."""
     global EGL
-    EGL = ctypes.CDLL("libEGL.so.1")
+    try:
+        EGL = ctypes.CDLL("libEGL.so.1")
+    except OSError as error:
+        raise Refusal("adapter", f"EGL is not here ({error})") from None
     EGL.eglGetProcAddress.restype = c_void_p
     EGL.eglGetProcAddress.argtypes = [c_char_p]
     EGL.eglGetPlatformDisplay.restype = c_void_p

@@ -1,4 +1,5 @@
-"""Runs jobs by OpenGL 4.5 core, without a display, until standard input ends. Argument: the adapter's name, which is the renderer's.
+"""Runs jobs by OpenGL 4.5 core, without a display, until standard input ends. Argument: the adapter's name, which is the renderer's;
+or `--check`, with which it only says what it lacks, if anything.
 
 A message is two lengths (32 bits, little-endian), then so many bytes of JSON, then so many of data, which the JSON points into. The
 first answer says what the renderer is; each later one answers a job. The JSON has WebGPU's words.
@@ -81,7 +82,7 @@ def main(name):
         gl = GL()
         if gl.renderer != name:
             raise Refusal("adapter", f"OpenGL's renderer is `{gl.renderer}`")
-    except (Refusal, OSError) as error:
+    except Refusal as error:
         return send({"failure": "adapter", "message": str(error)})
     hello(gl)
     for head, data in messages():
@@ -89,4 +90,14 @@ def main(name):
     return None
 
 
-main(sys.argv[1])
+def check():
+    try:
+        make_current()
+    except Refusal as error:
+        sys.exit(str(error))
+
+
+if sys.argv[1] == "--check":
+    check()
+else:
+    main(sys.argv[1])

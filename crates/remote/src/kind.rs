@@ -58,6 +58,14 @@ impl Kind {
         }
     }
 
+    /// How its program is called to say what this computer lacks, whatever the adapter; `None` where only opening an adapter tells.
+    pub(crate) fn check_arguments(self, script: &Path) -> Option<Vec<String>> {
+        match self {
+            Self::Dawn => None,
+            Self::OpenGl => Some(vec![script.to_string_lossy().into_owned(), "--check".to_owned()]),
+        }
+    }
+
     /// How its program is called.
     pub(crate) fn arguments(self, script: &Path, adapter: &str) -> Vec<String> {
         let script = script.to_string_lossy().into_owned();

@@ -8,12 +8,14 @@
 //! Text goes in exactly as it is given. Not for measuring time.
 //!
 //! - [`Remote::open`]: an adapter;
-//! - [`Limits`]: what a process may take.
+//! - [`Limits`]: what a process may take;
+//! - [`lacking`]: what this computer has to have first.
 
 mod answer;
 mod compute;
 mod groups;
 mod kind;
+mod lacking;
 mod machine;
 mod message;
 mod process;
@@ -21,5 +23,6 @@ mod render;
 mod script;
 
 pub use kind::Kind;
+pub use lacking::lacking;
 pub use machine::Remote;
 pub use process::Limits;

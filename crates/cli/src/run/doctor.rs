@@ -1,5 +1,6 @@
 //! `bossage doctor`: what this machine can do, and how to make it do more.
 
+use bossage_conformance::Route;
 use bossage_runner::{AdapterInfo, AdapterSelector, HOW_TO_GET_AN_ADAPTER};
 use bossage_translate::external::{self, Validator};
 use serde::Serialize;
@@ -29,6 +30,7 @@ pub(crate) fn run(args: &Doctor) -> Result<Verdict> {
         adapters: adapters.iter().map(Adapter::from).collect(),
         cache: check::cache_folder(None).map(|folder| folder.display().to_string()),
         validators: external::detect(),
+        routes: Route::ALL.map(|route| RouteState::of(route, has_driver)).into(),
     };
     if args.json {
         console::print_json(&report)?;
@@ -51,6 +53,7 @@ struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     how_to_get_an_adapter: Option<&'static str>,
     validators: Vec<Validator>,
+    routes: Vec<RouteState>,
     cache: Option<String>,
 }
 
@@ -80,7 +83,50 @@ impl From<&AdapterInfo> for Adapter {
     }
 }
 
+/// A route from emitted code to numbers, and why it cannot run here.
+#[derive(Debug, Serialize)]
+struct RouteState {
+    route: Route,
+    /// With the way to get what is missing; `None` where nothing is.
+    reason: Option<String>,
+}
+
+impl RouteState {
+    /// An adapter may still refuse a route that lacks nothing, which `conform` says.
+    fn of(route: Route, has_driver: bool) -> Self {
+        let needs_driver = !matches!(route, Route::Msl | Route::Embedded);
+        let no_driver = (needs_driver && !has_driver).then(|| "no driver's adapter".to_owned());
+        Self {
+            route,
+            reason: route.missing().or(no_driver),
+        }
+    }
+}
+
 impl Report {
+    /// The routes that run, in one line, then each of the others with what it lacks.
+    fn routes_text(&self) -> String {
+        let heading = console::heading("Routes from emitted code to numbers (conform --route)");
+        let enabled: Vec<String> = self
+            .routes
+            .iter()
+            .filter(|one| one.reason.is_none())
+            .map(|one| one.route.to_string())
+            .collect();
+        let mut text = format!(
+            "\n{heading}\n{}  {}\n",
+            console::good("ENABLED "),
+            enabled.join(", ")
+        );
+        for one in &self.routes {
+            if let Some(reason) = &one.reason {
+                let disabled = console::faint("DISABLED");
+                text.push_str(&format!("{disabled}  {}: {reason}\n", one.route));
+            }
+        }
+        text
+    }
+
     fn text(&self) -> String {
         let mut text = format!(
             "bossage {} on {}, {} cores\n\n",
@@ -120,6 +166,7 @@ impl Report {
         text.push_str(&format!("{}  {FXC}\n", console::faint("DISABLED")));
         let cache = self.cache.as_deref().unwrap_or("none: no home folder");
         text.push_str(&format!("\nTheir verdicts are kept in: {cache}\n"));
+        text.push_str(&self.routes_text());
         text
     }
 }

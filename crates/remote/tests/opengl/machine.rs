@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bossage_remote::Kind;
+use bossage_remote::{Kind, lacking};
 use bossage_translate::Target;
 use bossage_translate::external::find_program;
 
@@ -29,5 +29,10 @@ pub(crate) const TESTED: Tested = Tested {
 };
 
 pub(crate) fn program() -> Result<PathBuf, String> {
-    find_program("python3").ok_or_else(|| "python3 was not found".to_owned())
+    const HOW_TO_GET: &str = "on Debian: apt install python3 libegl1 libgl1-mesa-dri";
+    let program = find_program("python3").ok_or_else(|| format!("python3 was not found; {HOW_TO_GET}"))?;
+    match lacking(Kind::OpenGl, &program) {
+        None => Ok(program),
+        Some(what) => Err(format!("{what}; {HOW_TO_GET}")),
+    }
 }

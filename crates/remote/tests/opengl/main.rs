@@ -24,3 +24,5 @@ mod support;
 mod tested;
 #[path = "../../../runner/tests/adapter/texels.rs"]
 mod texels;
+#[cfg(unix)]
+mod without_egl;
