@@ -16,28 +16,15 @@ fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
     let Some((it, range)) = binary(node) else {
         return Vec::new();
     };
-    let first = || put(range, enclosed(text, it.left.span().range()));
-    let second = || put(range, enclosed(text, it.right.span().range()));
-    match it.operator {
-        BinaryOperator::Addition => vec![first(), second()],
-        BinaryOperator::Subtraction => vec![first()],
-        BinaryOperator::ShortCircuitOr
-        | BinaryOperator::ShortCircuitAnd
-        | BinaryOperator::Multiplication
-        | BinaryOperator::Division
-        | BinaryOperator::Remainder
-        | BinaryOperator::Equality
-        | BinaryOperator::Inequality
-        | BinaryOperator::LessThan
-        | BinaryOperator::LessThanEqual
-        | BinaryOperator::GreaterThan
-        | BinaryOperator::GreaterThanEqual
-        | BinaryOperator::BitwiseOr
-        | BinaryOperator::BitwiseAnd
-        | BinaryOperator::BitwiseXor
-        | BinaryOperator::ShiftLeft
-        | BinaryOperator::ShiftRight => Vec::new(),
+    let is_sum = it.operator == BinaryOperator::Addition;
+    let mut changes = Vec::new();
+    if is_sum || it.operator == BinaryOperator::Subtraction {
+        changes.push(put(range, enclosed(text, it.left.span().range())));
     }
+    if is_sum {
+        changes.push(put(range, enclosed(text, it.right.span().range())));
+    }
+    changes
 }
 
 #[cfg(test)]

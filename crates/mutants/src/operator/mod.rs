@@ -89,6 +89,26 @@ fn with_operator(it: &BinaryExpression, text: &str, operator: &BinaryOperator) -
     put(&between, changed)
 }
 
+/// What stands in place of binary operators: for each that is swapped, the others.
+type Swaps = &'static [(BinaryOperator, &'static [BinaryOperator])];
+
+/// What a table has in place of an operator.
+fn others(operator: BinaryOperator, swaps: Swaps) -> &'static [BinaryOperator] {
+    let found = swaps.iter().find(|(swapped, _)| *swapped == operator);
+    found.map_or(&[], |(_, others)| others)
+}
+
+/// A binary expression with each operator that a table has in place of its own.
+fn swapped(node: &Node<'_>, text: &str, swaps: Swaps) -> Vec<Change> {
+    binary(node).map_or_else(Vec::new, |(it, _)| {
+        let others = others(it.operator, swaps);
+        others
+            .iter()
+            .map(|other| with_operator(it, text, other))
+            .collect()
+    })
+}
+
 /// A call in an expression and its place.
 fn call<'a>(node: &'a Node<'_>) -> Option<(&'a FunctionCall, &'a Range<usize>)> {
     match node {
@@ -139,7 +159,47 @@ pub(crate) mod testing {
 mod tests {
     use std::collections::BTreeSet;
 
-    use super::OPERATORS;
+    use wesl::syntax::BinaryOperator as B;
+
+    use super::{OPERATORS, Swaps, others, swap_arithmetic, swap_bitwise, swap_comparison, swap_logical};
+
+    /// The table that has an operator. One that the language gets anew has to be put into one of them.
+    fn table(operator: B) -> Swaps {
+        match operator {
+            B::ShortCircuitOr | B::ShortCircuitAnd => swap_logical::SWAPS,
+            B::Addition | B::Subtraction | B::Multiplication | B::Division | B::Remainder => {
+                swap_arithmetic::SWAPS
+            }
+            B::Equality
+            | B::Inequality
+            | B::LessThan
+            | B::LessThanEqual
+            | B::GreaterThan
+            | B::GreaterThanEqual => swap_comparison::SWAPS,
+            B::BitwiseOr | B::BitwiseAnd | B::BitwiseXor | B::ShiftLeft | B::ShiftRight => {
+                swap_bitwise::SWAPS
+            }
+        }
+    }
+
+    #[test]
+    fn every_binary_operator_is_swapped_by_one_kind_of_fault_for_its_like() {
+        let tables = [
+            swap_logical::SWAPS,
+            swap_arithmetic::SWAPS,
+            swap_comparison::SWAPS,
+            swap_bitwise::SWAPS,
+        ];
+        let listed: Vec<B> = tables.concat().iter().map(|(operator, _)| *operator).collect();
+        let names: BTreeSet<String> = listed.iter().map(ToString::to_string).collect();
+        assert_eq!((names.len(), listed.len()), (18, 18));
+        for operator in listed {
+            let own = table(operator);
+            let others = others(operator, own);
+            assert!(!others.is_empty() && !others.contains(&operator), "{operator}");
+            assert!(others.iter().all(|other| table(*other) == own), "{operator}");
+        }
+    }
 
     #[test]
     fn names_are_unique_and_described() {

@@ -2,9 +2,9 @@
 //!
 //! A condition that is one comparison or begins with `!` is left to the operators that invert those.
 
-use wesl::syntax::{BinaryOperator, Expression, ExpressionNode, Statement, UnaryOperator};
+use wesl::syntax::{Expression, ExpressionNode, Statement, UnaryOperator};
 
-use super::{Operator, put};
+use super::{Operator, others, put, swap_comparison};
 use crate::mutant::Change;
 use crate::syntax::Node;
 
@@ -63,26 +63,7 @@ fn inverted_elsewhere(condition: &Expression) -> bool {
     match condition {
         Expression::Parenthesized(it) => inverted_elsewhere(it.expression.node()),
         Expression::Unary(it) => it.operator == UnaryOperator::LogicalNegation,
-        Expression::Binary(it) => match it.operator {
-            BinaryOperator::Equality
-            | BinaryOperator::Inequality
-            | BinaryOperator::LessThan
-            | BinaryOperator::LessThanEqual
-            | BinaryOperator::GreaterThan
-            | BinaryOperator::GreaterThanEqual => true,
-            BinaryOperator::ShortCircuitOr
-            | BinaryOperator::ShortCircuitAnd
-            | BinaryOperator::Addition
-            | BinaryOperator::Subtraction
-            | BinaryOperator::Multiplication
-            | BinaryOperator::Division
-            | BinaryOperator::Remainder
-            | BinaryOperator::BitwiseOr
-            | BinaryOperator::BitwiseAnd
-            | BinaryOperator::BitwiseXor
-            | BinaryOperator::ShiftLeft
-            | BinaryOperator::ShiftRight => false,
-        },
+        Expression::Binary(it) => !others(it.operator, swap_comparison::SWAPS).is_empty(),
         Expression::Literal(_)
         | Expression::NamedComponent(_)
         | Expression::Indexing(_)

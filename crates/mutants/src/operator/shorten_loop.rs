@@ -62,26 +62,12 @@ fn last_dropped(it: &ForStatement, text: &str) -> Option<Change> {
     let Expression::Binary(condition) = it.condition.as_ref()?.node() else {
         return None;
     };
-    let rises = match condition.operator {
-        BinaryOperator::LessThan | BinaryOperator::LessThanEqual => true,
-        BinaryOperator::GreaterThan | BinaryOperator::GreaterThanEqual => false,
-        BinaryOperator::ShortCircuitOr
-        | BinaryOperator::ShortCircuitAnd
-        | BinaryOperator::Addition
-        | BinaryOperator::Subtraction
-        | BinaryOperator::Multiplication
-        | BinaryOperator::Division
-        | BinaryOperator::Remainder
-        | BinaryOperator::Equality
-        | BinaryOperator::Inequality
-        | BinaryOperator::BitwiseOr
-        | BinaryOperator::BitwiseAnd
-        | BinaryOperator::BitwiseXor
-        | BinaryOperator::ShiftLeft
-        | BinaryOperator::ShiftRight => return None,
+    let sign = match condition.operator {
+        BinaryOperator::LessThan | BinaryOperator::LessThanEqual => '+',
+        BinaryOperator::GreaterThan | BinaryOperator::GreaterThanEqual => '-',
+        _ => return None,
     };
     let range = condition.left.span().range();
-    let sign = if rises { '+' } else { '-' };
     Some(put(&range, format!("({}) {sign} 1", &text[range.clone()])))
 }
 

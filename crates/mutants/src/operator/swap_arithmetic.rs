@@ -2,7 +2,7 @@
 
 use wesl::syntax::{AssignmentOperator, BinaryOperator, Statement};
 
-use super::{Operator, binary, put, with_operator};
+use super::{Operator, Swaps, put, swapped};
 use crate::mutant::Change;
 use crate::syntax::Node;
 
@@ -12,38 +12,19 @@ pub(super) const OPERATOR: Operator = Operator {
     changes,
 };
 
+/// What stands in place of each operator.
+pub(super) const SWAPS: Swaps = &[
+    (BinaryOperator::Addition, &[BinaryOperator::Subtraction]),
+    (BinaryOperator::Subtraction, &[BinaryOperator::Addition]),
+    (BinaryOperator::Multiplication, &[BinaryOperator::Division]),
+    (BinaryOperator::Division, &[BinaryOperator::Multiplication]),
+    (BinaryOperator::Remainder, &[BinaryOperator::Multiplication]),
+];
+
 fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
-    if let Some((it, _)) = binary(node) {
-        return swapped(it.operator)
-            .map(|other| with_operator(it, text, &other))
-            .into_iter()
-            .collect();
-    }
     match node {
         Node::Statement { syntax, range, .. } => statement(syntax, range.end, text).into_iter().collect(),
-        Node::Expression { .. } => Vec::new(),
-    }
-}
-
-fn swapped(operator: BinaryOperator) -> Option<BinaryOperator> {
-    match operator {
-        BinaryOperator::Addition => Some(BinaryOperator::Subtraction),
-        BinaryOperator::Subtraction => Some(BinaryOperator::Addition),
-        BinaryOperator::Multiplication => Some(BinaryOperator::Division),
-        BinaryOperator::Division | BinaryOperator::Remainder => Some(BinaryOperator::Multiplication),
-        BinaryOperator::ShortCircuitOr
-        | BinaryOperator::ShortCircuitAnd
-        | BinaryOperator::Equality
-        | BinaryOperator::Inequality
-        | BinaryOperator::LessThan
-        | BinaryOperator::LessThanEqual
-        | BinaryOperator::GreaterThan
-        | BinaryOperator::GreaterThanEqual
-        | BinaryOperator::BitwiseOr
-        | BinaryOperator::BitwiseAnd
-        | BinaryOperator::BitwiseXor
-        | BinaryOperator::ShiftLeft
-        | BinaryOperator::ShiftRight => None,
+        Node::Expression { .. } => swapped(node, text, SWAPS),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use wesl::syntax::BinaryOperator;
 
-use super::{Operator, binary, with_operator};
+use super::{Operator, Swaps, swapped};
 use crate::mutant::Change;
 use crate::syntax::Node;
 
@@ -12,31 +12,17 @@ pub(super) const OPERATOR: Operator = Operator {
     changes,
 };
 
-fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
-    let change = binary(node).and_then(|(it, _)| Some(with_operator(it, text, &swapped(it.operator)?)));
-    change.into_iter().collect()
-}
+/// What stands in place of each operator.
+pub(super) const SWAPS: Swaps = &[
+    (BinaryOperator::BitwiseOr, &[BinaryOperator::BitwiseAnd]),
+    (BinaryOperator::BitwiseAnd, &[BinaryOperator::BitwiseOr]),
+    (BinaryOperator::BitwiseXor, &[BinaryOperator::BitwiseOr]),
+    (BinaryOperator::ShiftLeft, &[BinaryOperator::ShiftRight]),
+    (BinaryOperator::ShiftRight, &[BinaryOperator::ShiftLeft]),
+];
 
-fn swapped(operator: BinaryOperator) -> Option<BinaryOperator> {
-    match operator {
-        BinaryOperator::BitwiseOr => Some(BinaryOperator::BitwiseAnd),
-        BinaryOperator::BitwiseAnd | BinaryOperator::BitwiseXor => Some(BinaryOperator::BitwiseOr),
-        BinaryOperator::ShiftLeft => Some(BinaryOperator::ShiftRight),
-        BinaryOperator::ShiftRight => Some(BinaryOperator::ShiftLeft),
-        BinaryOperator::ShortCircuitOr
-        | BinaryOperator::ShortCircuitAnd
-        | BinaryOperator::Addition
-        | BinaryOperator::Subtraction
-        | BinaryOperator::Multiplication
-        | BinaryOperator::Division
-        | BinaryOperator::Remainder
-        | BinaryOperator::Equality
-        | BinaryOperator::Inequality
-        | BinaryOperator::LessThan
-        | BinaryOperator::LessThanEqual
-        | BinaryOperator::GreaterThan
-        | BinaryOperator::GreaterThanEqual => None,
-    }
+fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
+    swapped(node, text, SWAPS)
 }
 
 #[cfg(test)]

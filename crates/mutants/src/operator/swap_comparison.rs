@@ -2,7 +2,7 @@
 
 use wesl::syntax::BinaryOperator;
 
-use super::{Operator, binary, with_operator};
+use super::{Operator, Swaps, swapped};
 use crate::mutant::Change;
 use crate::syntax::Node;
 
@@ -12,39 +12,30 @@ pub(super) const OPERATOR: Operator = Operator {
     changes,
 };
 
-fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
-    let Some((it, _)) = binary(node) else {
-        return Vec::new();
-    };
-    let others = others(it.operator);
-    others
-        .iter()
-        .map(|other| with_operator(it, text, other))
-        .collect()
-}
+/// What stands in place of each operator: first the boundary moved, then the comparison inverted.
+pub(super) const SWAPS: Swaps = &[
+    (
+        BinaryOperator::LessThan,
+        &[BinaryOperator::LessThanEqual, BinaryOperator::GreaterThanEqual],
+    ),
+    (
+        BinaryOperator::LessThanEqual,
+        &[BinaryOperator::LessThan, BinaryOperator::GreaterThan],
+    ),
+    (
+        BinaryOperator::GreaterThan,
+        &[BinaryOperator::GreaterThanEqual, BinaryOperator::LessThanEqual],
+    ),
+    (
+        BinaryOperator::GreaterThanEqual,
+        &[BinaryOperator::GreaterThan, BinaryOperator::LessThan],
+    ),
+    (BinaryOperator::Equality, &[BinaryOperator::Inequality]),
+    (BinaryOperator::Inequality, &[BinaryOperator::Equality]),
+];
 
-/// First the boundary moved, then the comparison inverted.
-fn others(operator: BinaryOperator) -> &'static [BinaryOperator] {
-    match operator {
-        BinaryOperator::LessThan => &[BinaryOperator::LessThanEqual, BinaryOperator::GreaterThanEqual],
-        BinaryOperator::LessThanEqual => &[BinaryOperator::LessThan, BinaryOperator::GreaterThan],
-        BinaryOperator::GreaterThan => &[BinaryOperator::GreaterThanEqual, BinaryOperator::LessThanEqual],
-        BinaryOperator::GreaterThanEqual => &[BinaryOperator::GreaterThan, BinaryOperator::LessThan],
-        BinaryOperator::Equality => &[BinaryOperator::Inequality],
-        BinaryOperator::Inequality => &[BinaryOperator::Equality],
-        BinaryOperator::ShortCircuitOr
-        | BinaryOperator::ShortCircuitAnd
-        | BinaryOperator::Addition
-        | BinaryOperator::Subtraction
-        | BinaryOperator::Multiplication
-        | BinaryOperator::Division
-        | BinaryOperator::Remainder
-        | BinaryOperator::BitwiseOr
-        | BinaryOperator::BitwiseAnd
-        | BinaryOperator::BitwiseXor
-        | BinaryOperator::ShiftLeft
-        | BinaryOperator::ShiftRight => &[],
-    }
+fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
+    swapped(node, text, SWAPS)
 }
 
 #[cfg(test)]

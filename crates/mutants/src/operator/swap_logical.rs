@@ -2,7 +2,7 @@
 
 use wesl::syntax::{BinaryOperator, Expression, LiteralExpression};
 
-use super::{Operator, binary, call, put, with_operator};
+use super::{Operator, Swaps, call, put, swapped};
 use crate::mutant::Change;
 use crate::syntax::Node;
 
@@ -12,36 +12,17 @@ pub(super) const OPERATOR: Operator = Operator {
     changes,
 };
 
-fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
-    let between = binary(node).and_then(|(it, _)| Some(with_operator(it, text, &swapped(it.operator)?)));
-    between
-        .or_else(|| quantified(node))
-        .or_else(|| literal(node))
-        .into_iter()
-        .collect()
-}
+/// What stands in place of each operator.
+pub(super) const SWAPS: Swaps = &[
+    (BinaryOperator::ShortCircuitOr, &[BinaryOperator::ShortCircuitAnd]),
+    (BinaryOperator::ShortCircuitAnd, &[BinaryOperator::ShortCircuitOr]),
+];
 
-fn swapped(operator: BinaryOperator) -> Option<BinaryOperator> {
-    match operator {
-        BinaryOperator::ShortCircuitOr => Some(BinaryOperator::ShortCircuitAnd),
-        BinaryOperator::ShortCircuitAnd => Some(BinaryOperator::ShortCircuitOr),
-        BinaryOperator::Addition
-        | BinaryOperator::Subtraction
-        | BinaryOperator::Multiplication
-        | BinaryOperator::Division
-        | BinaryOperator::Remainder
-        | BinaryOperator::Equality
-        | BinaryOperator::Inequality
-        | BinaryOperator::LessThan
-        | BinaryOperator::LessThanEqual
-        | BinaryOperator::GreaterThan
-        | BinaryOperator::GreaterThanEqual
-        | BinaryOperator::BitwiseOr
-        | BinaryOperator::BitwiseAnd
-        | BinaryOperator::BitwiseXor
-        | BinaryOperator::ShiftLeft
-        | BinaryOperator::ShiftRight => None,
-    }
+fn changes(node: &Node<'_>, text: &str) -> Vec<Change> {
+    let mut changes = swapped(node, text, SWAPS);
+    changes.extend(quantified(node));
+    changes.extend(literal(node));
+    changes
 }
 
 fn quantified(node: &Node<'_>) -> Option<Change> {
