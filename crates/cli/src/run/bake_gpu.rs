@@ -22,30 +22,16 @@ const WORKGROUP_SIDE: u32 = 8;
 
 pub(super) fn bake(args: &Bake, field: &HeightField, global: &Global, console: Console) -> Result<NormalMap> {
     let (kernel, uniforms, codec) = kernel(args, field)?;
-    let (library, _) = inputs::library(global)?;
-    let assembled = library.assemble_kernel(kernel)?;
-    let entry = inputs::entry(&assembled)?;
     let height_map = TextureData::r32f(field.width, field.height, &field.texels);
     let texels = BufferData::Output(field.texels.len() * 4);
-    let job = ComputeJob {
-        name: &assembled.name,
-        shader: Stage {
-            code: Code::Wgsl(&assembled.wgsl),
-            entry: &entry,
-        },
-        resources: Resources {
-            uniforms,
-            buffers: BTreeMap::from([("texels".to_owned(), texels)]),
-            textures: BTreeMap::from([("height_map".to_owned(), &height_map)]),
-            ..Resources::default()
-        },
-        workgroups: [
-            field.width.div_ceil(WORKGROUP_SIDE),
-            field.height.div_ceil(WORKGROUP_SIDE),
-            1,
-        ],
+    let resources = Resources {
+        uniforms,
+        buffers: BTreeMap::from([("texels".to_owned(), texels)]),
+        textures: BTreeMap::from([("height_map".to_owned(), &height_map)]),
+        ..Resources::default()
     };
-    let output = job.run(machine::open(None, console)?.as_ref())?;
+    let [x, y] = [field.width, field.height].map(|side| side.div_ceil(WORKGROUP_SIDE));
+    let output = Kernels::open(global, console)?.dispatch(kernel, resources, [x, y, 1])?;
     let texels = output.words("texels").into_iter().map(u32::to_le_bytes).collect();
     Ok(NormalMap {
         width: field.width,
@@ -70,8 +56,7 @@ pub(super) fn normalisation_cube(
     };
     let side = size.div_ceil(WORKGROUP_SIDE);
     let face_words = words * (size * size) as usize;
-    let machine = machine::open(None, console)?;
-    let kernels = Kernels::new(machine.as_ref(), global)?;
+    let kernels = Kernels::open(global, console)?;
     let texels = BufferData::Output(4 * 6 * face_words);
     let uniforms = BTreeMap::from([("bake.size".to_owned(), vec![size as f32])]);
     let found = kernels.run(kernel, uniforms, &[("texels", texels)], [side, side, 6])?;
@@ -95,8 +80,7 @@ pub(super) fn normalisation_cube(
 
 /// The levels of a normal map, the map itself first.
 pub(super) fn mips(map: &NormalMap, global: &Global, console: Console) -> Result<Vec<NormalMap>> {
-    let machine = machine::open(None, console)?;
-    let kernels = Kernels::new(machine.as_ref(), global)?;
+    let kernels = Kernels::open(global, console)?;
     let codec = vec![match map.codec {
         NormalCodec::Unorm => 0.0,
         NormalCodec::Biased => 1.0,
@@ -143,8 +127,7 @@ pub(super) fn max_mip(
     global: &Global,
     console: Console,
 ) -> Result<Vec<MaxCodes>> {
-    let machine = machine::open(None, console)?;
-    let kernels = Kernels::new(machine.as_ref(), global)?;
+    let kernels = Kernels::open(global, console)?;
     let level = |kernel: Kernel, from: &[u16], size: [u32; 2], to: [u32; 2]| -> Result<MaxCodes> {
         let uniforms = BTreeMap::from([
             ("bake.size".to_owned(), size.map(|side| side as f32).to_vec()),
@@ -189,8 +172,7 @@ pub(super) fn cones(
     global: &Global,
     console: Console,
 ) -> Result<ConeMap> {
-    let machine = machine::open(None, console)?;
-    let kernels = Kernels::new(machine.as_ref(), global)?;
+    let kernels = Kernels::open(global, console)?;
     let ratios = cone_passes::ratios(field, edge, relaxed, |pass| {
         let [x, y, _] = pass.invocations.map(|count| count.div_ceil(WORKGROUP_SIDE));
         let uniforms = pass.uniforms.into_iter().collect();
@@ -204,22 +186,41 @@ pub(super) fn cones(
 }
 
 /// The library's kernels on a device.
-struct Kernels<'a> {
-    machine: &'a dyn Machine,
+struct Kernels {
+    machine: Box<dyn Machine>,
     library: bossage_shaders::Library,
 }
 
-impl<'a> Kernels<'a> {
-    fn new(machine: &'a dyn Machine, global: &Global) -> Result<Self> {
+impl Kernels {
+    fn open(global: &Global, console: Console) -> Result<Self> {
         let (library, _) = inputs::library(global)?;
+        let machine = machine::open(None, console)?;
         Ok(Self { machine, library })
     }
 
+    /// A kernel that reads no textures.
     fn run(
         &self,
         kernel: Kernel,
         uniforms: Uniforms,
         buffers: &[(&str, BufferData<'_>)],
+        workgroups: [u32; 3],
+    ) -> Result<ComputeOutput> {
+        let resources = Resources {
+            uniforms,
+            buffers: buffers
+                .iter()
+                .map(|(name, data)| ((*name).to_owned(), *data))
+                .collect(),
+            ..Resources::default()
+        };
+        self.dispatch(kernel, resources, workgroups)
+    }
+
+    fn dispatch(
+        &self,
+        kernel: Kernel,
+        resources: Resources<'_>,
         workgroups: [u32; 3],
     ) -> Result<ComputeOutput> {
         let assembled = self.library.assemble_kernel(kernel)?;
@@ -230,17 +231,10 @@ impl<'a> Kernels<'a> {
                 code: Code::Wgsl(&assembled.wgsl),
                 entry: &entry,
             },
-            resources: Resources {
-                uniforms,
-                buffers: buffers
-                    .iter()
-                    .map(|(name, data)| ((*name).to_owned(), *data))
-                    .collect(),
-                ..Resources::default()
-            },
+            resources,
             workgroups,
         };
-        Ok(job.run(self.machine)?)
+        Ok(job.run(self.machine.as_ref())?)
     }
 
     /// The averages of a level of this size, as the bytes of four floats a texel.
