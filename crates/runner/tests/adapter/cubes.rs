@@ -84,18 +84,29 @@ fn look(
     sampler: SamplerSettings,
     at: &[[f32; 4]],
 ) -> Result<Vec<f32>, Error> {
+    answers(device, shader, sky, sampler, (at, at.len()))
+}
+
+/// What so many lookups give, of inputs of any kind.
+fn answers(
+    device: &dyn Machine,
+    shader: Shader<'_>,
+    sky: &TextureData,
+    sampler: SamplerSettings,
+    (inputs, count): (&[[f32; 4]], usize),
+) -> Result<Vec<f32>, Error> {
     let mut resources = Resources::default();
     resources.textures.insert("sky".into(), sky);
     resources.samplers.insert("sky_sampler".into(), sampler);
-    let inputs = BufferData::Bytes(bytemuck::cast_slice(at));
+    let inputs = BufferData::Bytes(bytemuck::cast_slice(inputs));
     resources.buffers.insert("inputs".into(), inputs);
-    let outputs = BufferData::Output(4 * at.len());
+    let outputs = BufferData::Output(4 * count);
     resources.buffers.insert("outputs".into(), outputs);
     let job = ComputeJob {
         name: "look",
         shader,
         resources,
-        workgroups: [at.len().div_ceil(64) as u32, 1, 1],
+        workgroups: [count.div_ceil(64) as u32, 1, 1],
     };
     Ok(job.run(device)?.floats("outputs"))
 }
@@ -245,4 +256,44 @@ fn a_plane_for_a_cube_is_refused() {
     many.levels.push(vec![0; 24]);
     let error = look(device, shader, &many, NEAREST, &at).unwrap_err();
     assert!(error.to_string().contains("levels"), "{error}");
+}
+
+/// As [`LOOK`], with the level from a gradient along x and along y instead.
+const GRADIENTS: &str = "
+@group(0) @binding(0) var<storage, read> inputs: array<vec4f>;
+@group(0) @binding(1) var<storage, read_write> outputs: array<f32>;
+@group(1) @binding(0) var sky: texture_cube<f32>;
+@group(1) @binding(1) var sky_sampler: sampler;
+@compute @workgroup_size(64) fn look(@builtin(global_invocation_id) id: vec3u) {
+    if id.x >= arrayLength(&outputs) { return; }
+    let at = inputs[2u * id.x].xyz;
+    let dx = inputs[2u * id.x + 1u].xyz;
+    outputs[id.x] = textureSampleGrad(sky, sky_sampler, at, dx, vec3f(0.0)).r;
+}
+";
+
+#[test]
+fn a_gradient_along_a_face_chooses_its_level() {
+    let Some(device) = device("a_gradient_along_a_face_chooses_its_level") else {
+        return;
+    };
+    let compiled = compile(GRADIENTS);
+    let sides = [4, 2, 1];
+    let sky = numbered(&sides);
+    let mut at = Vec::new();
+    let mut expected = Vec::new();
+    for (level, side) in sides.into_iter().enumerate() {
+        for face in 0..6 {
+            let [x, y, z] = direction(face, 0, 0, side);
+            // The middle axis of a direction is 3 long, and a face 2 wide: so it moves on by 2 to the power of the level in texels.
+            let mut along = [0.0; 4];
+            along[FACES[face][1].0] = 3.0 * 2.0 / sides[0] as f32 * (1 << level) as f32;
+            at.extend([[x, y, z, 0.0], along]);
+            expected.push(number(face, level, 0, 0));
+        }
+    }
+    for shader in compiled.both("look") {
+        let found = answers(device, shader, &sky, NEAREST, (&at, expected.len())).unwrap();
+        assert_eq!(found, expected, "{}", shader.code.route());
+    }
 }
