@@ -65,26 +65,15 @@ fn doctor_names_every_tool_with_a_way_to_get_it() {
     }
 }
 
-/// Python reads this module first: to it, there is no library of that name.
-const NO_EGL: &str = "
-import ctypes
-
-class CDLL(ctypes.CDLL):
-    def __init__(self, name, *args, **kwargs):
-        if name.startswith('libEGL'):
-            raise OSError(f'{name}: cannot open shared object file: No such file or directory')
-        super().__init__(name, *args, **kwargs)
-
-ctypes.CDLL = CDLL
-";
-
 #[test]
 fn without_egl_route_opengl_says_what_is_missing_and_how_to_get_it() {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("sitecustomize.py"), NO_EGL).unwrap();
+    // A module that Python reads first hides the library from it.
+    let no_egl = repository("crates/remote/tests/opengl/no_egl");
     let run = |arguments: &[&str]| -> Run {
         let mut command = tool::command(arguments);
-        command.env("PYTHONPATH", folder.path());
+        command
+            .env("PYTHONPATH", &no_egl)
+            .env("PYTHONDONTWRITEBYTECODE", "1");
         command.output().unwrap().into()
     };
     // Without Python it is Python that is missing, with the same way to get both.

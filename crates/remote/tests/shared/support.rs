@@ -40,7 +40,7 @@ fn adapter() -> Result<AdapterInfo, String> {
 }
 
 /// Says that a test is skipped, past the capture of the test harness, which would hide it since the test passes.
-fn skip(test: &str, why: &str) {
+pub(crate) fn skip(test: &str, why: &str) {
     let name = TESTED.name;
     let list = std::env::var("BOSSAGE_REQUIRE").unwrap_or_default();
     let required = list.split(',').any(|listed| listed.trim() == name);
