@@ -45,6 +45,7 @@ fn words(effect: EffectId) -> &'static [&'static str] {
             "light_rise",
             "seen",
         ],
+        EffectId::PixelDepth => &["pixel_depth", "relief_place", "clip_z", "clip_w", "tile_width"],
         EffectId::AmbientOcclusion => &["occlusion", "slope_occlusion"],
         EffectId::Emboss => &[
             "height_map",
@@ -229,6 +230,7 @@ fn full_sets() -> Vec<FeatureSet> {
         FeatureSet {
             relief: Relief::SteepParallax,
             shadow: Shadow::Soft,
+            pixel_depth: true,
             ..lit
         },
     ];

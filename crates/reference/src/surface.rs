@@ -18,10 +18,13 @@
 //! Limits: textures have one mip level; the rasteriser is not modelled, which is why the interpolants are inputs. Displaced
 //! vertices show in the interpolants alone.
 
+mod depth;
 mod light;
 mod shadow;
 #[cfg(test)]
 mod tests;
+
+pub use depth::{DepthRows, depth};
 
 use bossage_assets::cone_map::ConeMap;
 use bossage_assets::{EdgeMode, HeightField};
@@ -207,6 +210,8 @@ pub struct Material {
     pub relief: Relief,
     /// What stands before the lights; nothing without [`Relief::Search`].
     pub shadow: Shadow,
+    /// What makes a depth of the place that a search found; `None` where the polygon's is written.
+    pub depth: Option<DepthRows>,
     /// Ambient light, linear.
     pub ambient: DVec3,
     /// Specular colour, linear; `None` where the shader has no highlight.

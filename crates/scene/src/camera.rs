@@ -65,6 +65,15 @@ impl Matrices {
         }
     }
 
+    /// Clip from lighting space.
+    #[must_use]
+    pub fn clip_from(&self, space: LightingSpace) -> DMat4 {
+        match space {
+            LightingSpace::World => self.clip_from_local * self.local_from_world,
+            LightingSpace::Object => self.clip_from_local,
+        }
+    }
+
     /// A world-space point in lighting space.
     #[must_use]
     pub fn point(&self, space: LightingSpace, point_ws: DVec3) -> DVec3 {

@@ -9,7 +9,7 @@ use bossage_shaders::{
 };
 use glam::DVec3;
 
-use crate::decide_shading::beside_shadows;
+use crate::decide_shading::beside_places;
 use crate::facts::{MaterialFacts, has_mirrored_uv};
 use crate::model::{AlphaMode, Light, LightKind, Material, Normaliser, Object, Scene, TechniquePin};
 use crate::plan::{Effect, EffectId, Evidence, Fact, MaterialPlan, ObjectView, Predicted, State};
@@ -126,6 +126,8 @@ impl Subject<'_> {
         asked.relief = relief.technique.relief().unwrap_or_default();
         let shadow = self.shadow(lighting.kept, relief.technique);
         asked.shadow = chosen(shadow.kept, self.material.shadow.feature(), Shadow::None);
+        let pixel_depth = self.pixel_depth(relief.technique);
+        asked.pixel_depth = pixel_depth.kept;
         let emboss = self.emboss();
         let mut features = FeatureSet {
             shading: chosen(
@@ -154,6 +156,7 @@ impl Subject<'_> {
             (EffectId::AlphaDiscard, alpha_discard),
             (EffectId::Relief, relief.decision),
             (EffectId::Shadow, shadow),
+            (EffectId::PixelDepth, pixel_depth),
             (EffectId::AmbientOcclusion, self.ambient_occlusion()),
             (EffectId::Emboss, emboss),
             (EffectId::Displacement, self.displacement()),
@@ -177,9 +180,9 @@ impl Subject<'_> {
             drawn,
             effects: effects
                 .into_iter()
-                .map(|(id, decision)| match features.shadow {
-                    Shadow::None => decision.into_effect(id),
-                    Shadow::Hard | Shadow::Soft => beside_shadows(id, decision).into_effect(id),
+                .map(|(id, decision)| match features.shows_place() {
+                    true => beside_places(id, decision).into_effect(id),
+                    false => decision.into_effect(id),
                 })
                 .collect(),
             predicted: relief.predicted,
@@ -214,10 +217,11 @@ impl Subject<'_> {
         if self.objects.is_empty() {
             notes.push("no object uses this material".to_owned());
         }
-        let shadows = features.shadow != Shadow::None;
-        if self.material.lighting_space == LightingSpace::Object && shadows {
+        let placed = features.shows_place();
+        if self.material.lighting_space == LightingSpace::Object && placed {
             notes.push(
-                "shadows are found in world space, so lighting_space = \"object\" is not used".to_owned(),
+                "places on the relief are found in world space, so lighting_space = \"object\" is not used"
+                    .to_owned(),
             );
         } else if self.material.lighting_space == LightingSpace::Object && features.lights == Lights::Many {
             notes.push(
@@ -225,7 +229,7 @@ impl Subject<'_> {
                     .to_owned(),
             );
         }
-        if self.material.lighting_space == LightingSpace::Object && features.environment && !shadows {
+        if self.material.lighting_space == LightingSpace::Object && features.environment && !placed {
             notes.push(
                 "the environment is mirrored in world space, so lighting_space = \"object\" is not used"
                     .to_owned(),

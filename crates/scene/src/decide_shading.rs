@@ -12,8 +12,9 @@ use crate::plan::{EffectId, Evidence, Fact};
 use crate::technique::Technique;
 use crate::tile::Tile;
 
-/// What a shader with shadows has beside them, whatever the material calls for.
-const BESIDE_SHADOWS: [EffectId; 6] = [
+/// What a shader with shadows or depth has beside them, whatever the material calls for.
+const BESIDE_PLACES: [EffectId; 7] = [
+    EffectId::Lighting,
     EffectId::LightVector,
     EffectId::LightLoop,
     EffectId::Specular,
@@ -22,13 +23,13 @@ const BESIDE_SHADOWS: [EffectId; 6] = [
     EffectId::AlbedoMap,
 ];
 
-/// An effect's decision where the shader has shadows: kept, although it changes nothing.
-pub(crate) fn beside_shadows(id: EffectId, decision: Decision) -> Decision {
-    if decision.kept || !BESIDE_SHADOWS.contains(&id) {
+/// An effect's decision where the shader has shadows or depth: kept, although it changes nothing.
+pub(crate) fn beside_places(id: EffectId, decision: Decision) -> Decision {
+    if decision.kept || !BESIDE_PLACES.contains(&id) {
         return decision;
     }
     let reason = format!(
-        "every shader with shadows has it; it changes nothing here: {}",
+        "every shader with shadows or depth of the relief has it; it changes nothing here: {}",
         decision.reason
     );
     Decision::kept(reason, decision.evidence)
@@ -56,6 +57,23 @@ impl Subject<'_> {
         } else {
             // A light below the polygon lights nothing with shadows, and without them slopes that face it: dropping would show.
             Decision::kept("asked for by the scene", facts)
+        }
+    }
+
+    /// `technique`: what the relief is drawn by.
+    pub(crate) fn pixel_depth(&self, technique: Technique) -> Decision {
+        if !self.material.pixel_depth {
+            Decision::dropped("the scene asks for the polygon's", Evidence::new())
+        } else if technique == Technique::None {
+            Decision::dropped(
+                "no relief is drawn that could be deeper than its polygon",
+                Evidence::new(),
+            )
+        } else if !technique.relief().is_some_and(Relief::is_search) {
+            let reason = format!("`{}` finds no place whose depth it would be", technique.id());
+            Decision::dropped(reason, Evidence::new())
+        } else {
+            Decision::kept("asked for by the scene", Evidence::new())
         }
     }
 

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bossage_assets::{EdgeMode, Mesh};
-use bossage_shaders::{Albedo, FeatureSet, Relief, Stage};
+use bossage_shaders::{Albedo, FeatureSet, LightingSpace, Relief, Stage};
 use glam::{DMat4, DVec3, DVec4};
 
 use crate::camera::Matrices;
@@ -195,10 +195,44 @@ fn uniforms(
     let backward = (scene.camera.position - scene.camera.target).normalize();
     let backward = matrices.direction(features.space, backward);
     all.insert("view.backward".to_owned(), padded(backward, 0.0));
+    let clip = matrices.clip_from(features.space);
+    all.insert(
+        "view.clip_z".to_owned(),
+        clip.row(2).as_vec4().to_array().to_vec(),
+    );
+    all.insert(
+        "view.clip_w".to_owned(),
+        clip.row(3).as_vec4().to_array().to_vec(),
+    );
+    all.insert(
+        "material.tile_width".to_owned(),
+        vec![tile_width(&matrices, object, features)],
+    );
     all.insert("object.displacement".to_owned(), displacement(object, prepared));
     all.extend(light_uniforms(&matrices, &lights, features));
     all.extend(material_uniforms(scene, prepared, features));
     all
+}
+
+/// The length of a tile along u in lighting space; 1 where there are no texture coordinates, or nobody asks.
+fn tile_width(matrices: &Matrices, object: &Object, features: &FeatureSet) -> f32 {
+    if !features.pixel_depth {
+        return 1.0;
+    }
+    let tile = match features.space {
+        LightingSpace::World => {
+            let mut mesh = Mesh::clone(&object.mesh);
+            for position in &mut mesh.positions {
+                *position = matrices
+                    .world_from_local
+                    .transform_point3(position.as_dvec3())
+                    .as_vec3();
+            }
+            Tile::of(&mesh)
+        }
+        LightingSpace::Object => Tile::of(&object.mesh),
+    };
+    tile.map_or(1.0, |tile| tile.side.x as f32)
 }
 
 fn object_uniforms(matrices: &Matrices) -> BTreeMap<String, Vec<f32>> {

@@ -290,6 +290,15 @@ impl<'t> Value<'t> {
         self.numbers::<3>(bound).map(DVec3::from_array)
     }
 
+    /// `true` or `false`.
+    pub(crate) fn truth(&self) -> Option<bool> {
+        let DeValue::Boolean(truth) = self.value else {
+            self.wrong_type("true or false");
+            return None;
+        };
+        Some(*truth)
+    }
+
     /// Whether this is an array, for fields of more than one shape.
     pub(crate) fn is_array(&self) -> bool {
         matches!(self.value, DeValue::Array(_))

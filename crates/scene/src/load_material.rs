@@ -93,6 +93,7 @@ pub(crate) fn material(table: &Table<'_>, files: &Files) -> Option<Material> {
     let technique = table.or("technique", TechniquePin::Auto, |v| v.word(&TechniquePin::NAMES));
     let search = technique.and_then(|pin| load_search::settings(table, pin));
     let shadow = load_shadow::shadow(table);
+    let pixel_depth = table.or("pixel_depth", false, Value::truth);
     let occlusion = table.or("occlusion", schema::OCCLUSION, |v| v.number(NOT_NEGATIVE));
     let normaliser = table.or("normaliser", Normaliser::Arithmetic, |v| normaliser(v, shading));
     let emboss_texels = table.or("emboss_texels", schema::EMBOSS_TEXELS, |v| v.number(POSITIVE));
@@ -112,6 +113,7 @@ pub(crate) fn material(table: &Table<'_>, files: &Files) -> Option<Material> {
         technique: technique?,
         search: search?,
         shadow: shadow?,
+        pixel_depth: pixel_depth?,
         occlusion: occlusion?,
         shading: shading?,
         normaliser: normaliser?,

@@ -159,6 +159,8 @@ pub struct Material {
     pub search: Option<Search>,
     /// What of the relief stands before the lights.
     pub shadow: Shadow,
+    /// Whether the depth written is that of the place on the relief.
+    pub pixel_depth: bool,
     /// How much ambient light a unit of shift takes away, for the techniques that occlude it.
     pub occlusion: f64,
     /// What light does.

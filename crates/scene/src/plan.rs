@@ -164,6 +164,8 @@ pub enum EffectId {
     Relief,
     /// What of the relief stands before the lights.
     Shadow,
+    /// The depth of the place on the relief in place of the polygon's.
+    PixelDepth,
     /// Ambient light occluded by the slope of the normal map.
     AmbientOcclusion,
     /// The slope of the height map toward the light, added to the diffuse term.
@@ -180,7 +182,7 @@ pub enum EffectId {
 
 impl EffectId {
     /// All of them, in order.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::Lighting,
         Self::LightVector,
         Self::LightLoop,
@@ -192,6 +194,7 @@ impl EffectId {
         Self::AlphaDiscard,
         Self::Relief,
         Self::Shadow,
+        Self::PixelDepth,
         Self::AmbientOcclusion,
         Self::Emboss,
         Self::Displacement,
@@ -215,6 +218,7 @@ impl EffectId {
             Self::AlphaDiscard => "alpha_discard",
             Self::Relief => "relief",
             Self::Shadow => "shadow",
+            Self::PixelDepth => "pixel_depth",
             Self::AmbientOcclusion => "ambient_occlusion",
             Self::Emboss => "emboss",
             Self::Displacement => "displacement",

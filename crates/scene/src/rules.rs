@@ -47,6 +47,7 @@ pub(crate) fn check(root: &Table<'_>, materials: &[Material], surroundings: &Sur
             relief(material, &at),
             shading(material, &at),
             shadow(material, &at),
+            pixel_depth(material, &at),
             lights(material, surroundings),
             reflection(material, surroundings),
         ];
@@ -148,6 +149,40 @@ fn shadow(material: &Material, at: Field<'_>) -> Option<Refusal> {
                 material.technique.as_str()
             ),
             "set technique to a search such as `relief`, or shadow to `none`".to_owned(),
+        )
+    } else {
+        None
+    }
+}
+
+/// Why a material cannot have the depth of its relief although it asks for it.
+fn pixel_depth(material: &Material, at: Field<'_>) -> Option<Refusal> {
+    if !material.pixel_depth {
+        return None;
+    }
+    let height = at("height");
+    let no = |message: String, hint: String| Some(Refusal::new("pixel_depth", message, hint));
+    let pinned = material.technique.relief();
+    if material.height.is_none() {
+        no(
+            format!("the depth would be that of the heights, and there is no `{height}`"),
+            format!("add `{height}` with a map, or set pixel_depth to false"),
+        )
+    } else if material.shading != Shading::BlinnPhong {
+        no(
+            format!(
+                "the depth of a relief does not go with shading `{}`",
+                material.shading.as_str()
+            ),
+            "set shading to `blinn_phong`, or pixel_depth to false".to_owned(),
+        )
+    } else if pinned.is_some_and(|relief| !relief.is_search()) {
+        no(
+            format!(
+                "technique `{}` finds no place on the relief whose depth it would be",
+                material.technique.as_str()
+            ),
+            "set technique to a search such as `relief`, or pixel_depth to false".to_owned(),
         )
     } else {
         None

@@ -52,6 +52,7 @@
 //! | `materials.shadow` | `none`, `hard`, `soft`: what of the relief stands before the lights | `none` |
 //! | `materials.light_samples` | 1 to 4096: heights read on the way to each light; with `shadow` only | `16` |
 //! | `materials.light_half_width` | 0.001 to 1000: half the extent of each light, in slopes of the ray to its middle; `soft` only | `0.25` |
+//! | `materials.pixel_depth` | `true`, `false`: whether the depth written is that of the place on the relief, so that it meets other objects where it is | `false` |
 //! | `materials.occlusion` | ≥ 0: ambient light taken away by a unit of `parallax_slope_ao`'s shift | `40` |
 //! | `materials.shading` | `blinn_phong`, `wrap_lambert`, `emboss`, `dot3_single_pass`, `dot3_two_pass` | `blinn_phong` |
 //! | `materials.normaliser.kind` | `arithmetic`, `cube`; `dot3` only | `arithmetic` |
@@ -82,6 +83,8 @@
 //!   `normal`), the slope techniques `normal`. The searches go with `blinn_phong` and have one form.
 //! - `shadow` needs `height` and goes with `blinn_phong` and a search along the view ray, pinned or chosen: it begins at the place that
 //!   the search found. Where another technique is chosen there is none. Light is then measured in world space.
+//! - `pixel_depth` needs the same, and like a shadow there is none where another technique is chosen. Where tiles differ in length on a
+//!   mesh, their mean counts.
 //! - `emboss` needs `height`, `dot3_single_pass` and `dot3_two_pass` need `normal`; these and `wrap_lambert` have exactly one
 //!   light that is not black. Of relief techniques `wrap_lambert` goes with the slope's two and `displacement`, `emboss` and
 //!   `dot3` with none. `wrap_lambert` has one ambient value: `ambient` must be grey.

@@ -11,8 +11,9 @@
 //! - `displacement` makes its own normals: no normal map;
 //! - a search along the view ray goes with `blinn_phong` and has one form; it always carries the handedness, one factor beside dozens
 //!   of fetches, and so takes half as many modules;
-//! - shadows begin at the place that a search found, so they go with a search alone; beside a march toward each light the other effects
-//!   cost little, so all but the mask are on, neutral where a material has none: one shader a search, kind of shadow and mask;
+//! - shadows and depth are those of the place that a search found, so they go with a search alone; beside a search and a march toward
+//!   each light the other effects cost little, so all but the mask are on, neutral where a material has none: one shader a search, kind
+//!   of shadow, depth and mask;
 //! - a reflection is as bright as the specular colour, so where there is light there is a highlight too, and it is looked up in
 //!   world space.
 //!
@@ -45,7 +46,7 @@ impl FeatureSet {
         }
         self.settle_shading();
         self.settle_relief();
-        self.settle_shadow();
+        self.settle_place();
         self.settle_surroundings();
         if !self.has_normal() {
             self.transform = Transform::Rigid;
@@ -125,12 +126,14 @@ impl FeatureSet {
         }
     }
 
-    /// What a shadow goes with.
-    fn settle_shadow(&mut self) {
-        if !self.relief.is_search() || self.lights == Lights::None {
+    /// What goes with the effects of the place that a search found: shadows, and depth.
+    fn settle_place(&mut self) {
+        let searches = self.relief.is_search();
+        self.pixel_depth &= searches;
+        if !searches || self.lights == Lights::None {
             self.shadow = Shadow::None;
         }
-        if self.shadow != Shadow::None {
+        if self.shows_place() {
             self.normal = NormalSource::Map;
             self.albedo = Albedo::Map;
             self.lights = Lights::Many;
@@ -169,6 +172,7 @@ impl FeatureSet {
         FeatureSet {
             relief: planned.relief_switched_on(),
             shadow: planned.shadow,
+            pixel_depth: planned.pixel_depth,
             normal: NormalSource::Map,
             lights: match (planned.shading, object, planned.lights) {
                 (Shading::BlinnPhong, false, _) => Lights::Many,

@@ -291,6 +291,9 @@ pub struct FeatureSet {
     /// What of the relief stands before the lights.
     #[serde(default)]
     pub shadow: Shadow,
+    /// Whether the depth written is that of the place on the relief.
+    #[serde(default)]
+    pub pixel_depth: bool,
     /// Where the normal comes from.
     pub normal: NormalSource,
     /// How many lights of which kind.
@@ -331,6 +334,12 @@ impl FeatureSet {
     #[must_use]
     pub fn has_tangent(&self) -> bool {
         self.normal == NormalSource::Map || self.relief.shifts() || self.shading == Shading::Emboss
+    }
+
+    /// Whether the place that a search found shows by more than the maps read there: by a shadow, or by its depth.
+    #[must_use]
+    pub fn shows_place(&self) -> bool {
+        self.shadow != Shadow::None || self.pixel_depth
     }
 
     /// Whether the vector to the eye is needed.

@@ -52,6 +52,7 @@ pub(crate) const KNOWN: &[&str] = &[
     "parallax_offset_limited",
     "parallax_slope_ao",
     "parallax_slope_ao_directed",
+    "pixel_depth",
     "point_light",
     "position_varying",
     "published",
@@ -192,6 +193,7 @@ pub(crate) fn of_fragment(key: &FragmentKey, variant: Variant) -> Vec<&'static s
             "parallax_slope_ao_directed",
             key.relief == Relief::ParallaxSlopeAoDirected,
         ),
+        ("pixel_depth", key.pixel_depth),
         ("point_light", key.lights == Lights::Point),
         (
             "position_varying",

@@ -25,6 +25,7 @@ impl FeatureSet {
             [
                 relief(set.relief),
                 shadow(set.shadow),
+                set.pixel_depth.then_some("pixel_depth"),
                 normal(set.normal),
                 lights(set.lights),
                 shading(set.shading, Pass::Only),
@@ -71,6 +72,7 @@ impl FragmentKey {
             [
                 relief(self.relief),
                 shadow(self.shadow),
+                self.pixel_depth.then_some("pixel_depth"),
                 normal(self.normal),
                 lights(self.lights),
                 shading(self.shading, self.pass),

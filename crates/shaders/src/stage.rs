@@ -66,6 +66,8 @@ pub struct FragmentKey {
     pub relief: Relief,
     /// What of the relief stands before the lights.
     pub shadow: Shadow,
+    /// Whether the depth of the place on the relief is written.
+    pub pixel_depth: bool,
     /// Where the normal comes from.
     pub normal: NormalSource,
     /// How many lights of which kind.
@@ -120,6 +122,7 @@ impl FeatureSet {
                 set.relief
             },
             shadow: set.shadow,
+            pixel_depth: set.pixel_depth,
             normal: set.normal,
             lights: set.lights,
             shading: set.shading,
@@ -142,6 +145,7 @@ impl FeatureSet {
         (set.shading == Shading::Dot3TwoPass).then_some(FragmentKey {
             relief: Relief::None,
             shadow: Shadow::None,
+            pixel_depth: false,
             normal: NormalSource::Geometric,
             lights: Lights::None,
             shading: set.shading,
@@ -226,8 +230,9 @@ impl FeatureSet {
         vary(&mut sets, &[false, true], |set, it| set.mirrored_uv = it);
         let canonical: BTreeSet<FeatureSet> = sets.into_iter().map(FeatureSet::canonical).collect();
         let mut sets: Vec<FeatureSet> = canonical.into_iter().collect();
-        // Few sets have shadows, so they are looked for among those that remain.
+        // Few sets have shadows or depth, so they are looked for among those that remain.
         vary(&mut sets, &Shadow::ALL, |set, shadow| set.shadow = shadow);
+        vary(&mut sets, &[false, true], |set, it| set.pixel_depth = it);
         let canonical: BTreeSet<FeatureSet> = sets.into_iter().map(FeatureSet::canonical).collect();
         canonical.into_iter().collect()
     }

@@ -28,7 +28,7 @@ const EFFECTS: &[Effect] = &[
     },
     Effect {
         name: "elevation",
-        on: |set| set.relief.is_offset() || set.relief == Relief::ParallaxIterative,
+        on: |set| set.relief.is_offset() || set.relief == Relief::ParallaxIterative || set.pixel_depth,
         vertex: &[],
         fragment: &["elevation"],
     },
@@ -75,7 +75,7 @@ const EFFECTS: &[Effect] = &[
         on: |set| {
             set.relief == Relief::ParallaxOffset
                 || (set.relief.is_search() && set.relief != Relief::ParallaxIterative)
-                || set.shadow != Shadow::None
+                || set.shows_place()
         },
         vertex: &[],
         fragment: &["MIN_VIEW_Z"],
@@ -97,6 +97,19 @@ const EFFECTS: &[Effect] = &[
         on: |set| set.shadow == Shadow::Soft,
         vertex: &[],
         fragment: &["soft_shadow", "seen_share", "light_half_width"],
+    },
+    Effect {
+        name: "pixel_depth",
+        on: |set| set.pixel_depth,
+        vertex: &[],
+        fragment: &[
+            "pixel_depth",
+            "relief_place",
+            "clip_z",
+            "clip_w",
+            "tile_width",
+            "SMALLEST_DISTANCE",
+        ],
     },
     Effect {
         name: "march",
@@ -572,6 +585,11 @@ fn a_missing_guard_is_caught() -> Result<()> {
             "entry/surface_bindings.wesl",
             "@if(soft_shadow) light_half_width",
             "light_half_width",
+        ),
+        (
+            "entry/surface_bindings.wesl",
+            "@if(pixel_depth) tile_width",
+            "tile_width",
         ),
         (
             "entry/surface_bindings.wesl",

@@ -7,7 +7,7 @@ use bossage_shaders::{
     Shadow, Stage, Transform,
 };
 
-/// Every value of the type without shadows, canonical or not: 13·5·2·2·2·4·2⁸.
+/// Every value of the type without shadows and depth, canonical or not: 13·5·2·2·2·4·2⁸.
 fn all() -> Vec<FeatureSet> {
     let mut sets = vec![FeatureSet::default()];
     let mut vary = |change: &dyn Fn(FeatureSet) -> Vec<FeatureSet>| {
@@ -76,7 +76,15 @@ fn all() -> Vec<FeatureSet> {
 
 #[test]
 fn canonical_is_idempotent_and_reachable_holds_exactly_the_canonical_ones() {
-    let with = |set: FeatureSet| Shadow::ALL.map(|shadow| FeatureSet { shadow, ..set });
+    let with = |set: FeatureSet| {
+        Shadow::ALL.into_iter().flat_map(move |shadow| {
+            [false, true].map(|pixel_depth| FeatureSet {
+                shadow,
+                pixel_depth,
+                ..set
+            })
+        })
+    };
     let canonical: BTreeSet<FeatureSet> = all()
         .into_iter()
         .flat_map(with)
@@ -100,36 +108,45 @@ fn equal_code_has_an_equal_key_and_different_keys_have_different_names() {
     }
 }
 
-/// A search has one shader for each kind of shadow with and without a mask, whatever else is asked for.
+/// A search has one shader for each kind of shadow, for depth and for both, with and without a mask, whatever else is asked for.
 #[test]
-fn shadows_add_four_fragment_shaders_a_search() {
-    let shaded = |set: &FeatureSet| set.shadow != Shadow::None;
+fn shadows_and_depth_add_ten_fragment_shaders_a_search() {
+    let placed = |set: &FeatureSet| set.shadow != Shadow::None || set.pixel_depth;
     let reachable = FeatureSet::reachable();
     let fragments: BTreeSet<_> = reachable
         .iter()
-        .filter(|set| shaded(set))
+        .filter(|set| placed(set))
         .map(FeatureSet::fragment)
         .collect();
     let searches = Relief::ALL
         .into_iter()
         .filter(|relief| relief.is_search())
         .count();
-    assert_eq!(fragments.len(), 4 * searches);
+    assert_eq!(fragments.len(), 10 * searches);
     for set in all() {
-        let asked = FeatureSet {
-            shadow: Shadow::Hard,
+        let asked = |shadow, pixel_depth| FeatureSet {
+            shadow,
+            pixel_depth,
             ..set
         };
-        let canonical = asked.canonical();
-        assert_eq!(canonical.canonical(), canonical);
-        let searched = set.canonical().relief.is_search() && set.lights != Lights::None;
-        assert!(!searched || shaded(&canonical), "{}", canonical.name());
-        // Without one there is nothing that the same set without shadows has not.
+        let [hard, deep] = [asked(Shadow::Hard, false), asked(Shadow::None, true)].map(FeatureSet::canonical);
+        let searched = set.canonical().relief.is_search();
+        assert!(!searched || deep.pixel_depth, "{}", deep.name());
+        let lit = set.lights != Lights::None;
         assert!(
-            shaded(&canonical) || canonical == set.canonical(),
+            !searched || (hard.shadow == Shadow::Hard) == lit,
             "{}",
-            canonical.name()
+            hard.name()
         );
+        // Without one there is nothing that the same set without has not.
+        for canonical in [hard, deep] {
+            assert_eq!(canonical.canonical(), canonical);
+            assert!(
+                placed(&canonical) || canonical == set.canonical(),
+                "{}",
+                canonical.name()
+            );
+        }
     }
 }
 
@@ -189,7 +206,11 @@ fn all_effects_has_all_that_was_planned() {
     for planned in FeatureSet::reachable() {
         let every = planned.all_effects();
         let name = planned.name();
-        assert_eq!(every.shadow, planned.shadow, "{name}");
+        assert_eq!(
+            (every.shadow, every.pixel_depth),
+            (planned.shadow, planned.pixel_depth),
+            "{name}"
+        );
         assert!(every.specular || !planned.specular, "{name}");
         assert!(every.environment || !planned.environment, "{name}");
         assert!(every.has_normal() || !planned.has_normal(), "{name}");
@@ -245,7 +266,7 @@ fn each_technique_goes_with_what_its_article_has() {
         if set.relief.is_slope() {
             assert!(set.normal == NormalSource::Map && !set.environment, "{name}");
         }
-        if set.shadow != Shadow::None {
+        if set.shadow != Shadow::None || set.pixel_depth {
             assert!(set.relief.is_search() && set.lights == Lights::Many, "{name}");
         }
         if set.relief == Relief::Displacement {

@@ -21,6 +21,7 @@ mod tests;
 mod truth;
 mod views;
 
+pub(crate) use self::exact::off_surface;
 use crate::case::Case;
 
 /// Every technique and way to read heights, on every map.

@@ -29,6 +29,13 @@ const MUTANTS: &[Mutant] = &[
         filter: "surface/hardened/permutations:shading=blinn_phong",
     },
     Mutant {
+        what: "the depth of the polygon in place of the relief's",
+        file: "entry/surface_fragment.wesl",
+        from: "pixel_depth(place, view.clip_z",
+        to: "pixel_depth(interpolated.position, view.clip_z",
+        filter: "surface/hardened/permutations:shading=blinn_phong",
+    },
+    Mutant {
         what: "the tangent frame transposed",
         file: "techniques/light_to_tangent.wesl",
         from: "return vec3f(dot(tangent, light), dot(bitangent_dir, light), dot(normal, light));",

@@ -2,7 +2,8 @@ use bossage_assets::{EdgeMode, HeightField};
 use glam::{DVec2, DVec3, DVec4};
 
 use super::{
-    Fragment, Interpolants, Light, Material, Pass, Relief, SearchMaps, Shading, Shadow, Viewer, shade,
+    DepthRows, Fragment, Interpolants, Light, Material, Pass, Relief, SearchMaps, Shading, Shadow, Viewer,
+    depth, shade,
 };
 use crate::Form;
 use crate::cube::Seams;
@@ -22,6 +23,7 @@ fn plain() -> Material {
         search_maps: None,
         relief: Relief::None,
         shadow: Shadow::None,
+        depth: None,
         ambient: DVec3::splat(0.5),
         specular: None,
         shininess: 1.0,
@@ -333,4 +335,35 @@ fn a_light_below_the_horizon_lights_no_relief() {
     });
     assert!(before_the_wall(&plain, 0.2, below) > 0.7);
     assert_eq!(before_the_wall(&hard, 0.2, below), 0.25);
+}
+
+/// Seen straight from above, from 1 over the polygon: the ground lies ¾ of a layer of 0.2 tiles of width 2 below it.
+#[test]
+fn the_depth_is_that_of_the_ground_and_not_of_the_polygon() {
+    // clip.w is the distance from the eye's plane, and clip.z is that less a tenth.
+    let rows = DepthRows {
+        clip_z: DVec4::new(0.0, 0.0, -1.0, ABOVE.eye.z - 0.1),
+        clip_w: DVec4::new(0.0, 0.0, -1.0, ABOVE.eye.z),
+        tile_width: 2.0,
+    };
+    let deep = Material {
+        depth: Some(rows),
+        ..walled(Shadow::None)
+    };
+    let at = Interpolants {
+        uv: DVec2::new(0.25, 0.5),
+        ..FACING
+    };
+    let seen = |material: &Material| depth(material, &ABOVE, &at, Form::Hardened);
+    let below = -0.75 * 0.2 * 2.0;
+    let expected = (0.9 - below) / (1.0 - below);
+    let got = seen(&deep).expect("a search finds a place");
+    // The search finds t to a 64th of a layer, halved eight times; depth changes by less than 0.2 · 2 · 0.1 of that.
+    assert!((got - expected).abs() < 0.04 / 64.0 / 256.0, "{got} {expected}");
+    assert_eq!(seen(&walled(Shadow::None)), None);
+    let flat = Material {
+        relief: Relief::None,
+        ..deep
+    };
+    assert_eq!(seen(&flat), None);
 }

@@ -6,7 +6,7 @@ use bossage_shaders::{FeatureSet, LightingSpace, Shading, Stage};
 use crate::fixture::{Folder, LAMP, SUN, example, one_plane};
 
 /// Every member of the surface's uniform buffers and how many floats it takes.
-const UNIFORMS: [(&str, usize); 22] = [
+const UNIFORMS: [(&str, usize); 25] = [
     ("light.radiance", 4),
     ("light.vector", 4),
     ("lights.count", 4),
@@ -22,12 +22,15 @@ const UNIFORMS: [(&str, usize); 22] = [
     ("material.search", 4),
     ("material.shininess", 1),
     ("material.specular", 4),
+    ("material.tile_width", 1),
     ("object.clip_from_local", 16),
     ("object.cofactor", 16),
     ("object.displacement", 4),
     ("object.handedness_sign", 4),
     ("object.world_from_local", 16),
     ("view.backward", 4),
+    ("view.clip_w", 4),
+    ("view.clip_z", 4),
     ("view.eye", 4),
 ];
 
@@ -94,6 +97,7 @@ fn complete_for_the_plan_and_for_all_effects() {
         "height_to_normal.toml",
         "nothing.toml",
         "parallax_occlusion.toml",
+        "pixel_depth.toml",
         "shadows.toml",
     ] {
         let scene = example(name);

@@ -53,6 +53,7 @@ fn every_example_loads_and_plans() {
             "height_to_normal.toml",
             "nothing.toml",
             "parallax_occlusion.toml",
+            "pixel_depth.toml",
             "shadows.toml"
         ]
     );

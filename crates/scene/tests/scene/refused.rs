@@ -135,6 +135,30 @@ fn pins_that_cannot_be_honoured_are_named() {
             "from 0.001 to 1000",
         ),
         (
+            format!("{NORMAL}pixel_depth = true"),
+            "pixel_depth",
+            "there is no `materials[0].height`",
+            "add",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}technique = \"none\"\npixel_depth = true"),
+            "pixel_depth",
+            "`none` finds no place",
+            "`relief`",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}shading = \"emboss\"\npixel_depth = true"),
+            "pixel_depth",
+            "does not go with shading `emboss`",
+            "blinn_phong",
+        ),
+        (
+            format!("{HEIGHT}{NORMAL}pixel_depth = 1"),
+            "pixel_depth",
+            "expected true or false, found an integer",
+            "write true or false",
+        ),
+        (
             format!("{HEIGHT}{NORMAL}shadow = \"medium\""),
             "shadow",
             "`medium` is not known",

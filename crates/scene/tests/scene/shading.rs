@@ -35,6 +35,7 @@ fn agrees(material: &MaterialPlan) {
     );
     assert_eq!(kept(EffectId::Relief), set.relief.shifts());
     assert_eq!(kept(EffectId::Shadow), set.shadow != Shadow::None);
+    assert_eq!(kept(EffectId::PixelDepth), set.pixel_depth);
     assert_eq!(kept(EffectId::AmbientOcclusion), set.relief.is_slope());
     assert_eq!(kept(EffectId::Displacement), set.relief == Relief::Displacement);
     assert_eq!(kept(EffectId::Emboss), set.shading == Shading::Emboss);
@@ -105,6 +106,51 @@ fn shadows_go_with_a_search_and_have_the_rest_beside_them() {
         let (kept, reason) = state(only(&plan), EffectId::Shadow);
         assert!(kept == State::Dropped && reason.contains(says), "{plan}");
     }
+}
+
+#[test]
+fn depth_of_the_relief_goes_with_a_search_lit_or_not() {
+    let folder = folder();
+    let deep = format!("{COLOR}{HEIGHT}technique = \"relief\"\npixel_depth = true\n");
+    for lights in ["", SUN] {
+        let (scene, plan) = planned(&folder, lights, &deep);
+        let one = only(&plan);
+        agrees(one);
+        assert!(
+            one.features.pixel_depth && one.features.shadow == Shadow::None,
+            "{plan}"
+        );
+        let (kept, reason) = state(one, EffectId::Lighting);
+        assert!(kept == State::Kept, "{plan}");
+        assert_eq!(
+            reason.contains("changes nothing here"),
+            lights.is_empty(),
+            "{plan}"
+        );
+        let draw = draws(&scene, &plan).remove(0);
+        // The rows of clip space give what the vertex stage gives, at the object's middle.
+        let [local, world] =
+            ["object.clip_from_local", "object.world_from_local"].map(|name| &draw.uniforms[name]);
+        let place = [world[12], world[13], world[14], 1.0];
+        for (row, name) in [(2, "view.clip_z"), (3, "view.clip_w")] {
+            let got: f32 = draw.uniforms[name].iter().zip(place).map(|(a, b)| a * b).sum();
+            assert!(
+                (got - local[12 + row]).abs() < 1e-5,
+                "{name}: {got} {}",
+                local[12 + row]
+            );
+        }
+        assert!(draw.uniforms["material.tile_width"][0] > 0.0);
+    }
+    let offset = deep.replace("technique = \"relief\"\n", "");
+    let (_, plan) = planned(&folder, SUN, &offset);
+    agrees(only(&plan));
+    let asked = state(only(&plan), EffectId::PixelDepth);
+    assert_eq!(
+        asked.0 == State::Kept,
+        only(&plan).features.relief.is_search(),
+        "{plan}"
+    );
 }
 
 #[test]

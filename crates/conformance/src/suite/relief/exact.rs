@@ -2,14 +2,16 @@
 //!
 //! A result is right within 0.01 texel of the true hit, or of the true hit of a ray within 4 ULP of this one
 //! (`relief_grazing`): rays with more than one answer are counted as undecided, and at most one in 10,000 may be. The status must be
-//! the true one, so no ray may run into the cap, and the place must lie on the ray at the depth that the record says.
+//! the true one, so no ray may run into the cap, and the place must lie on the ray at the depth that the record says, and there on the
+//! surface.
 
 use std::fmt;
 use std::sync::OnceLock;
 
 use bossage_assets::HeightField;
-use bossage_reference::relief_grazing::{Answers, Surface, TOLERANCE_TEXELS};
+use bossage_reference::relief_grazing::{Answers, Surface, TOLERANCE_TEXELS, steepest};
 use bossage_reference::relief_ray::{Ray, Status};
+use bossage_reference::relief_truth::height_at;
 use bossage_shaders::{HeightRead, Kernel, ReliefSearch, ReliefTechnique};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -44,6 +46,7 @@ pub(super) struct ExactCase {
 /// One setting's rays and their answers.
 struct Part {
     setting: Setting,
+    steepest: DVec2,
     beside: Option<Beside>,
     views: Vec<View>,
     truths: Vec<(Ray, Status, Answers)>,
@@ -65,6 +68,7 @@ enum Fault {
     Status { got: f32, wanted: u32 },
     Place { texels: f64 },
     OffTheRay { texels: f64 },
+    OffTheSurface { heights: f64 },
 }
 
 impl fmt::Display for Fault {
@@ -73,8 +77,15 @@ impl fmt::Display for Fault {
             Self::Status { got, wanted } => write!(f, "status {got} instead of {wanted}"),
             Self::Place { texels } => write!(f, "{texels:.4} texels from every hit that counts"),
             Self::OffTheRay { texels } => write!(f, "uv and t are {texels:.4} texels apart"),
+            Self::OffTheSurface { heights } => write!(f, "t is {heights:.6} heights off the surface at uv"),
         }
     }
+}
+
+/// How far off the surface a record may be, in heights: what the steepest slope makes of the tolerance, and 16 roundings of numbers up
+/// to 1, since the gap that the walk makes 0 is a sum of four weighted corners and the ray's height.
+pub(crate) fn off_surface(steepest: DVec2) -> f64 {
+    TOLERANCE_TEXELS * steepest.element_sum() + 16.0 * 0.5f64.powi(24)
 }
 
 impl ExactCase {
@@ -114,6 +125,7 @@ impl ExactCase {
         Part {
             beside: Beside::of(ReliefTechnique::Exact, &self.field, setting.edge),
             truths: views.par_iter().map(truth).collect(),
+            steepest: steepest(&self.field, setting.edge),
             setting,
             views,
         }
@@ -122,6 +134,7 @@ impl ExactCase {
     /// How far off a record is, in texels.
     fn error(
         &self,
+        part: &Part,
         (ray, status, answers): &(Ray, Status, Answers),
         [u, v, t, got]: &[f32; HIT_FLOATS],
     ) -> Result<f64, Fault> {
@@ -135,11 +148,14 @@ impl ExactCase {
         let sides = DVec2::new(f64::from(self.field.width), f64::from(self.field.height));
         let apart = ((uv - ray.at(f64::from(*t))) * sides).length();
         let texels = answers.error_texels(uv);
+        let off = (1.0 - f64::from(*t) - height_at(&self.field, part.setting.edge, uv)).abs();
         // Not a number is nowhere.
         if apart.is_nan() || apart > TOLERANCE_TEXELS {
             Err(Fault::OffTheRay { texels: apart })
         } else if texels > TOLERANCE_TEXELS {
             Err(Fault::Place { texels })
+        } else if off > off_surface(part.steepest) {
+            Err(Fault::OffTheSurface { heights: off })
         } else {
             Ok(texels)
         }
@@ -176,7 +192,7 @@ impl KernelCase for ExactCase {
                 .zip(&part.truths)
                 .zip(rig.hits(bench, &part.views)?)
             {
-                let texels = self.error(truth, &got).map_err(|fault| {
+                let texels = self.error(part, truth, &got).map_err(|fault| {
                     format!(
                         "{fault}: {view:?} in {:?} met {got:?}; the truth is {:?}",
                         part.setting, truth.2

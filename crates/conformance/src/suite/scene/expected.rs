@@ -6,7 +6,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use bossage_reference::surface::{Fragment as Truth, shade};
+use bossage_bounds::Slot;
+use bossage_reference::surface::{Fragment as Truth, depth, shade};
 use bossage_scene::Draw;
 use bossage_shaders::{FeatureSet, Stage};
 use rayon::prelude::*;
@@ -25,6 +26,8 @@ pub(super) struct Fragment {
     pub(super) color: [Bound; 4],
     /// Whether it may keep it: 1, 0, or either.
     pub(super) kept: Bound,
+    /// The depth by the reference and its interval, both in [0, 1], where the shader writes it.
+    pub(super) depth: Option<(f64, Bound)>,
 }
 
 /// Whose points a draw is judged at: its own picture's, or those of another picture of the same object.
@@ -90,20 +93,63 @@ pub(super) fn fragments(
     points: &[Interpolants],
 ) -> Result<Vec<Fragment>, String> {
     let (intervals, joined) = rig.intervals(stage, &Interpolants::inputs(points))?;
-    let truths = truths(rig.draw(), stage, points);
-    let both = truths.into_iter().enumerate().map(|(at, truth)| {
-        Ok(Fragment {
-            truth,
-            color: either(intervals.location(0, at)?, joined[at]),
-            kept: intervals.kept(at),
-        })
-    });
+    let (truths, depths) = (
+        truths(rig.draw(), stage, points),
+        depths(rig.draw(), stage, points),
+    );
+    let both = truths
+        .into_iter()
+        .zip(depths)
+        .enumerate()
+        .map(|(at, (truth, depth))| {
+            let written = intervals.component(Slot::FragDepth, at, 0);
+            Ok(Fragment {
+                depth: match (depth, written) {
+                    (Some(depth), Some(bound)) => {
+                        let [bound] = either([within_range(bound)], joined[at]);
+                        Some((depth, bound))
+                    }
+                    (None, None) => None,
+                    _ => {
+                        return Err(
+                            "the shader and the reference do not agree whether a depth is written".to_owned(),
+                        );
+                    }
+                },
+                truth,
+                color: either(intervals.location(0, at)?, joined[at]),
+                kept: intervals.kept(at),
+            })
+        });
     both.collect()
 }
 
 /// The same numbers, joined from several results where that is said.
-fn either(color: [Bound; 4], joined: bool) -> [Bound; 4] {
+fn either<const N: usize>(color: [Bound; N], joined: bool) -> [Bound; N] {
     color.map(|channel| if joined { channel.forked() } else { channel })
+}
+
+/// A depth as it is kept: the machine cuts it to [0, 1].
+fn within_range(depth: Bound) -> Bound {
+    if !depth.is_decided() {
+        return depth;
+    }
+    let [low, high] = [depth.low(), depth.high()].map(|end| end.clamp(0.0, 1.0));
+    let cut = Bound::between(low, high);
+    if depth.is_forked() { cut.forked() } else { cut }
+}
+
+/// The reference's depths; `None` where the polygon's is written.
+fn depths(draw: &Draw, stage: Stage, points: &[Interpolants]) -> Vec<Option<f64>> {
+    if !draw.features.canonical().pixel_depth {
+        return vec![None; points.len()];
+    }
+    let material = truth::material(draw, stage);
+    let (viewer, _, form) = truth::view(draw);
+    points
+        .par_iter()
+        .map(|at| depth(&material, &viewer, &at.exact(), form))
+        .collect()
 }
 
 /// The reference's colours; `None` where it discards.

@@ -10,16 +10,19 @@
 
 use bossage_assets::{EdgeMode, HeightField};
 use bossage_bounds::{Flags, Interval};
-use bossage_reference::relief_grazing::{Span, Surface};
+use bossage_reference::relief_grazing::{Span, Surface, steepest};
 use bossage_reference::relief_ray::Ray;
+use bossage_reference::relief_truth::height_at;
 use glam::DVec2;
 use rayon::prelude::*;
 
 use crate::bound::Bound;
 use crate::oracle::stages::{Inputs, Outputs, Stage};
+use crate::suite::relief::off_surface;
 
-/// The input of the variant.
+/// The inputs of the variant.
 const HIT: &str = "hit_uv";
+const DEPTH: &str = "hit_t";
 
 /// Where it writes its ray.
 const RAY: u32 = 1;
@@ -32,9 +35,11 @@ pub(super) fn intervals(
     edge: EdgeMode,
 ) -> Result<(Outputs, Vec<bool>), String> {
     let anywhere = [Interval::unknown(Flags::UNDECIDED); 2];
+    let any_depth = [Interval::unknown(Flags::UNDECIDED)];
     let nowhere = inputs
         .clone()
-        .with_intervals(HIT, (0..inputs.count()).map(|_| anywhere));
+        .with_intervals(HIT, (0..inputs.count()).map(|_| anywhere))
+        .with_intervals(DEPTH, (0..inputs.count()).map(|_| any_depth));
     let rays = stage.fragments(&nowhere)?;
     let rays = (0..inputs.count()).map(|at| rays.location::<4>(RAY, at));
     let rays = rays.collect::<Result<Vec<_>, _>>()?;
@@ -45,7 +50,19 @@ pub(super) fn intervals(
             [0, 1].map(|axis| Interval::new(span.low[axis], span.high[axis]))
         })
     });
-    let outputs = stage.fragments(&inputs.clone().with_intervals(HIT, hits))?;
+    let steepest = steepest(heights, edge);
+    let depths = spans.par_iter().map(|span| {
+        span.as_ref().map_or(any_depth, |span| {
+            let [low, high] = depths(steepest, heights, edge, span);
+            [Interval::new(low, high)]
+        })
+    });
+    let depths: Vec<[Interval; 1]> = depths.collect();
+    let given = inputs
+        .clone()
+        .with_intervals(HIT, hits)
+        .with_intervals(DEPTH, depths.into_iter());
+    let outputs = stage.fragments(&given)?;
     let in_pieces = |span: &Option<Span>| span.is_some_and(|span| !span.in_one_piece);
     Ok((outputs, spans.iter().map(in_pieces).collect()))
 }
@@ -66,4 +83,15 @@ fn span(surface: &Surface<'_>, ray: &[Bound; 4]) -> Option<Span> {
     // To the further end, whatever the rounding of the middle.
     let reach = |first: usize, middle: DVec2| (two(high, first) - middle).max(middle - two(low, first));
     Some(surface.span(&ray, reach(0, ray.uv_top), reach(2, ray.delta)))
+}
+
+/// Between which t the records of hits within a span lie. A hit is on the surface, at the height 1 − t: no further from that in the
+/// middle of the span than the steepest slope makes of the way there, and a record as far off the surface as it may be.
+fn depths(steepest: DVec2, heights: &HeightField, edge: EdgeMode, span: &Span) -> [f64; 2] {
+    let sides = DVec2::new(f64::from(heights.width), f64::from(heights.height));
+    let middle = 0.5 * (span.low + span.high);
+    let way = (0.5 * (span.high - span.low) * sides).dot(steepest);
+    let off = way + off_surface(steepest);
+    let t = 1.0 - height_at(heights, edge, middle);
+    [t - off, t + off].map(|t| t.clamp(0.0, 1.0))
 }

@@ -10,7 +10,12 @@ use crate::compare::{Comparison, Expected};
 /// Every pixel against both oracles: whether the alpha test kept it, and its four channels.
 pub(super) fn judged(pixels: &[Pixel], mut comparison: Comparison) -> Comparison {
     for pixel in pixels {
-        let Fragment { truth, color, kept } = pixel.expected;
+        let Fragment {
+            truth,
+            color,
+            kept,
+            depth: expected,
+        } = pixel.expected;
         comparison.item(
             &pixel.place,
             &[flag(pixel.got.is_some())],
@@ -18,6 +23,9 @@ pub(super) fn judged(pixels: &[Pixel], mut comparison: Comparison) -> Comparison
         );
         if let (Some(got), Some(truth)) = (pixel.got, truth) {
             comparison.item(&pixel.place, &got, &colours(truth, color));
+            if let (Some(got), Some(expected)) = (pixel.depth, expected) {
+                comparison.item(&pixel.place, &[got], &[depth(expected)]);
+            }
         }
     }
     comparison
@@ -63,6 +71,9 @@ fn crossed(full: &Pixel, planned: &Fragment, comparison: &mut Comparison) {
         // The nearest float: an interval's ends are floats, so none lies outside that the truth is not.
         let nearest = other_truth.map(|channel| channel as f32);
         comparison.item(&full.place, &nearest, &colours(other_truth, planned.color));
+        if let (Some(got), Some(expected)) = (full.depth, planned.depth) {
+            comparison.item(&full.place, &[got], &[depth(expected)]);
+        }
     }
 }
 
@@ -93,6 +104,10 @@ fn apart(planned: &Pixel, full: &Pixel, comparison: &mut Comparison) {
     comparison.item(&planned.place, &got, &[0, 1, 2, 3].map(difference));
 }
 
+fn depth((truth, bound): (f64, Bound)) -> Expected {
+    Expected { truth, bound }
+}
+
 pub(super) fn colours(truth: [f64; 4], bounds: [Bound; 4]) -> [Expected; 4] {
     std::array::from_fn(|i| Expected {
         truth: truth[i],
@@ -121,6 +136,7 @@ mod tests {
             truth: Some([truth; 4]),
             color: [Bound::between(truth - slack, truth + slack); 4],
             kept: Bound::exactly(1.0),
+            depth: None,
         }
     }
 
@@ -128,6 +144,7 @@ mod tests {
         Pixel {
             place: vec![3.0, 5.0],
             got: got.map(|x| [x; 4]),
+            depth: None,
             expected,
         }
     }
@@ -157,6 +174,21 @@ mod tests {
             ..fragment(0.5, 0.01)
         };
         assert_eq!(of(pixel(Some(0.5), gone)).refused, 1);
+    }
+
+    #[test]
+    fn a_depth_outside_of_its_interval_is_refused() {
+        let deep = |depth: f32| {
+            let expected = Fragment {
+                depth: Some((0.5, Bound::between(0.49, 0.51))),
+                ..fragment(0.5, 0.01)
+            };
+            of(Pixel {
+                depth: Some(depth),
+                ..pixel(Some(0.5), expected)
+            })
+        };
+        assert_eq!((deep(0.5).refused, deep(0.52).refused), (0, 1));
     }
 
     #[test]

@@ -71,10 +71,11 @@ pub fn cases(full: bool) -> impl Iterator<Item = Box<dyn Case>> {
 }
 
 /// The fields of a feature set, each as a number.
-fn fields(set: &FeatureSet) -> [u8; 12] {
+fn fields(set: &FeatureSet) -> [u8; 13] {
     [
         set.relief as u8,
         set.shadow as u8,
+        u8::from(set.pixel_depth),
         set.normal as u8,
         set.lights as u8,
         set.normaliser as u8,

@@ -22,6 +22,8 @@ pub(super) struct Pixel {
     pub(super) place: Vec<f32>,
     /// The colour; `None` where the shader under test wrote nothing.
     pub(super) got: Option<[f32; 4]>,
+    /// The depth that is kept there, where the shader writes it.
+    pub(super) depth: Option<f32>,
     /// What it should be.
     pub(super) expected: Fragment,
 }
@@ -51,7 +53,7 @@ impl Object<'_> {
     pub(super) fn render(&self, draw: &Draw, stage: Stage) -> Result<Drawn, String> {
         let size = scaled(self.size);
         let rig = Rig::new(self.bench, draw, &draw.features, &[stage])?.filtered(self.filter);
-        let picture = rig.floats(self.bench, stage, size, 1)?.remove(0);
+        let (picture, depth) = rig.floats_and_depth(self.bench, stage, size)?;
         let capture = Rig::new(
             self.bench,
             draw,
@@ -70,7 +72,10 @@ impl Object<'_> {
             .of((self.number, Points::Own), &rig, stage, &points)?;
         let each = covered.into_iter().zip(&points).zip(expected.iter());
         let pixels = each
-            .map(|((at, point), expected)| pixel(at, size[0], point, picture.pixels[at], *expected))
+            .map(|((at, point), expected)| Pixel {
+                depth: depth.as_ref().map(|depth| depth[at]),
+                ..pixel(at, size[0], point, picture.pixels[at], *expected)
+            })
             .collect();
         Ok(Drawn { pixels, points })
     }
@@ -93,6 +98,7 @@ fn pixel(at: usize, width: u32, point: &Interpolants, got: [f32; 4], expected: F
     Pixel {
         place: [&[x as f32, y as f32], point.numbers().as_slice()].concat(),
         got: (!got.iter().copied().all(is_unwritten)).then_some(got),
+        depth: None,
         expected,
     }
 }

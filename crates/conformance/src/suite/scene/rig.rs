@@ -170,6 +170,22 @@ impl<'a> Rig<'a> {
         }
     }
 
+    /// One fragment module alone in a float target, and what it leaves in the depth buffer where it writes its depth itself.
+    pub(super) fn floats_and_depth(
+        &self,
+        bench: &Bench<'_>,
+        stage: Stage,
+        size: [u32; 2],
+    ) -> Result<(Picture, Option<Vec<f32>>), String> {
+        let draw = self.with(stage, Blend::Replace, Depth::TestAndWrite)?;
+        let targets = vec![RenderTarget::floats(Clear::Sentinel)];
+        let mut job = job(&self.draw.object, size, targets, vec![vec![draw]]);
+        job.read_depth = self.draw.features.canonical().pixel_depth;
+        let output = job.run(bench.device).map_err(|error| with_causes(&error))?;
+        let picture = output.targets.into_iter().next();
+        Ok((picture.ok_or("a picture has a target")?, output.depth))
+    }
+
     /// One fragment module alone, in so many float targets.
     pub(super) fn floats(
         &self,

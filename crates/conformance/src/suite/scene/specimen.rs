@@ -247,6 +247,7 @@ fn furnish(material: &mut Material, features: &FeatureSet) -> Result<(), String>
             half_width: 0.6,
         },
     };
+    material.pixel_depth = features.pixel_depth;
     material.shading = features.shading;
     material.form = features.form;
     material.occlusion = 2.5;

@@ -76,6 +76,7 @@ pub(super) fn material(draw: &Draw, stage: Stage) -> Material {
         search_maps: search::maps(draw, &features),
         relief: relief(draw, &features),
         shadow: search::shadow(draw, &features),
+        depth: search::depth(draw, &features),
         ambient: vector(uniform(draw, "material.ambient")),
         specular: features.specular.then(specular),
         shininess: f64::from(shininess),

@@ -6,7 +6,7 @@
 
 use bossage_reference::relief_ray::Layer;
 use bossage_reference::relief_search::Search;
-use bossage_reference::surface::{Fragment, Material, Relief, shade};
+use bossage_reference::surface::{Fragment, Material, Relief, depth, shade};
 use bossage_runner::{Blend, Clear, Depth, Filter, RenderTarget};
 use bossage_scene::{Draw, Plan, Scene, TechniquePin, draws, plan};
 use bossage_shaders::{Relief as Feature, Stage};
@@ -123,7 +123,7 @@ fn shaded(bench: &Bench<'_>, draw: &Draw, size: [u32; 2]) -> Result<Vec<(usize, 
     let mut capture = job(&draw.object, size, targets, vec![vec![one]]);
     capture.read_depth = true;
     let output = capture.run(bench.device).map_err(|error| with_causes(&error))?;
-    let depth = output.depth.ok_or("the depth was asked for")?;
+    let polygon = output.depth.ok_or("the depth was asked for")?;
     let covered: Vec<usize> = (0_usize..)
         .zip(output.targets[0].covered())
         .filter_map(|(at, covered)| covered.then_some(at))
@@ -145,7 +145,11 @@ fn shaded(bench: &Bench<'_>, draw: &Draw, size: [u32; 2]) -> Result<Vec<(usize, 
                 Fragment::Discarded => return None,
             }
         }
-        Some((at, depth[at], colour))
+        // Where the relief has a depth of its own, that of the first hit counts.
+        let first = materials
+            .first()
+            .and_then(|material| depth(material, &viewer, &point, form));
+        Some((at, first.map_or(polygon[at], |depth| depth as f32), colour))
     };
     Ok(covered.into_par_iter().filter_map(pixel).collect())
 }

@@ -3,10 +3,11 @@
 use bossage_assets::HeightField;
 use bossage_assets::cone_map::ConeMap;
 use bossage_reference::relief_search::Search;
-use bossage_reference::surface::{SearchMaps, Shadow};
+use bossage_reference::surface::{DepthRows, SearchMaps, Shadow};
 use bossage_reference::texture::Texture;
 use bossage_scene::Draw;
 use bossage_shaders::{FeatureSet, Relief, Shadow as Feature};
+use glam::DVec4;
 
 use super::{plane, uniform};
 
@@ -42,6 +43,17 @@ pub(super) fn shadow(draw: &Draw, features: &FeatureSet) -> Shadow {
         Feature::Hard => Shadow::Hard { samples },
         Feature::Soft => Shadow::Soft { samples, half_width },
     }
+}
+
+/// What makes a depth of the place that is found, where the shader writes it.
+pub(super) fn depth(draw: &Draw, features: &FeatureSet) -> Option<DepthRows> {
+    let row = |name| DVec4::from_array(uniform(draw, name).map(f64::from));
+    let [tile_width] = uniform(draw, "material.tile_width").map(f64::from);
+    features.pixel_depth.then(|| DepthRows {
+        clip_z: row("view.clip_z"),
+        clip_w: row("view.clip_w"),
+        tile_width,
+    })
 }
 
 /// The maps as the shader reads them: heights from their own map or from the red of the baked one, the rest from its green.
