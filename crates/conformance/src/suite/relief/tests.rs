@@ -115,22 +115,29 @@ const FAULTS: &[(&str, &str, &str, ReliefTechnique)] = &[
     // Windows are left too late.
     (
         "techniques/exact.wesl",
-        "let one = t + left * course.inverse",
-        "let one = t + (left + BLOCK) * course.inverse",
+        "(block + 1.0 - place) * course.one",
+        "(block + 2.0 - place) * course.one",
         ReliefTechnique::Exact,
     ),
     // Windows of rays that come from the other side.
     (
         "techniques/exact.wesl",
-        "(course.along >= vec2f(0.0)) != mirrored",
-        "course.along >= vec2f(0.0)",
+        "-1.0 - block, block",
+        "course.blocks - 1.0 - block, block",
         ReliefTechnique::Exact,
     ),
     // Behind a window the walk goes on in the cell before it.
     (
         "techniques/exact.wesl",
-        "select(next, floor(course.origin + t * course.along - 0.5), ahead > end)",
+        "select(next, floor(origin + t * along), t > end)",
         "next",
+        ReliefTechnique::Exact,
+    ),
+    // Beyond the tile its last windows go on.
+    (
+        "techniques/exact.wesl",
+        "turn * course.period",
+        "0.0 * course.period",
         ReliefTechnique::Exact,
     ),
     // A summit between the ends of a cell is passed over.
