@@ -112,6 +112,13 @@ const FAULTS: &[(&str, &str, &str, ReliefTechnique)] = &[
         "select(root + gap.y, -2.0 * gap.x, rises)",
         ReliefTechnique::Exact,
     ),
+    // Straight down, where every depth is on the ray, another than the surface's.
+    (
+        "techniques/exact.wesl",
+        "return HitRecord(ray.uv_top + hit * ray.delta, hit, status);",
+        "return HitRecord(ray.uv_top + hit * ray.delta, select(hit, 0.5 * hit, dot(ray.delta, ray.delta) < 1e-12), status);",
+        ReliefTechnique::Exact,
+    ),
     // Windows are left too late.
     (
         "techniques/exact.wesl",
