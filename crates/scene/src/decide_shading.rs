@@ -13,12 +13,11 @@ use crate::technique::Technique;
 use crate::tile::Tile;
 
 /// What a shader with shadows or depth has beside them, whatever the material calls for.
-const BESIDE_PLACES: [EffectId; 7] = [
+const BESIDE_PLACES: [EffectId; 6] = [
     EffectId::Lighting,
     EffectId::LightVector,
     EffectId::LightLoop,
     EffectId::Specular,
-    EffectId::Environment,
     EffectId::NormalMap,
     EffectId::AlbedoMap,
 ];

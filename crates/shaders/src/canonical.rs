@@ -12,8 +12,8 @@
 //! - a search along the view ray goes with `blinn_phong` and has one form; it always carries the handedness, one factor beside dozens
 //!   of fetches, and so takes half as many modules;
 //! - shadows and depth are those of the place that a search found, so they go with a search alone; beside a search and a march toward
-//!   each light the other effects cost little, so all but the mask are on, neutral where a material has none: one shader a search, kind
-//!   of shadow, depth and mask;
+//!   each light the other effects cost little, so all but the mask and the reflection are on, neutral where a material has none: one
+//!   shader a search, kind of shadow, depth, mask and reflection;
 //! - a reflection is as bright as the specular colour, so where there is light there is a highlight too, and it is looked up in
 //!   world space.
 //!
@@ -138,7 +138,6 @@ impl FeatureSet {
             self.albedo = Albedo::Map;
             self.lights = Lights::Many;
             self.specular = true;
-            self.environment = true;
         }
     }
 

@@ -108,9 +108,9 @@ fn equal_code_has_an_equal_key_and_different_keys_have_different_names() {
     }
 }
 
-/// A search has one shader for each kind of shadow, for depth and for both, with and without a mask, whatever else is asked for.
+/// A search has one shader for each kind of shadow, for depth and for both, with and without a mask and a reflection, whatever else is asked for.
 #[test]
-fn shadows_and_depth_add_ten_fragment_shaders_a_search() {
+fn shadows_and_depth_add_twenty_fragment_shaders_a_search() {
     let placed = |set: &FeatureSet| set.shadow != Shadow::None || set.pixel_depth;
     let reachable = FeatureSet::reachable();
     let fragments: BTreeSet<_> = reachable
@@ -122,7 +122,7 @@ fn shadows_and_depth_add_ten_fragment_shaders_a_search() {
         .into_iter()
         .filter(|relief| relief.is_search())
         .count();
-    assert_eq!(fragments.len(), 10 * searches);
+    assert_eq!(fragments.len(), 20 * searches);
     for set in all() {
         let asked = |shadow, pixel_depth| FeatureSet {
             shadow,

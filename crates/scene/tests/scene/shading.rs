@@ -79,7 +79,6 @@ fn shadows_go_with_a_search_and_have_the_rest_beside_them() {
     for id in [
         EffectId::Specular,
         EffectId::NormalMap,
-        EffectId::Environment,
         EffectId::LightLoop,
     ] {
         let (kept, reason) = state(one, id);
@@ -88,6 +87,8 @@ fn shadows_go_with_a_search_and_have_the_rest_beside_them() {
             "{plan}"
         );
     }
+    // No cube map is bound where nothing is mirrored.
+    assert_eq!(state(one, EffectId::Environment).0, State::Dropped, "{plan}");
     let draw = draws(&scene, &plan).remove(0);
     assert_eq!(draw.uniforms["material.search"][3], 9.0);
     assert_eq!(draw.uniforms["material.light_half_width"], [0.5]);
