@@ -15,7 +15,7 @@ enum Kind {
 
 const KINDS: [(&str, Kind); 3] = [("none", Kind::None), ("hard", Kind::Hard), ("soft", Kind::Soft)];
 const HALF_WIDTH: Bound = Bound {
-    allows: |x| x >= schema::LIGHT_HALF_WIDTH_ENDS[0] && x <= schema::LIGHT_HALF_WIDTH_ENDS[1],
+    allows: |x| (schema::LIGHT_HALF_WIDTH_ENDS[0]..=schema::LIGHT_HALF_WIDTH_ENDS[1]).contains(&x),
     words: "from 0.001 to 1000",
 };
 

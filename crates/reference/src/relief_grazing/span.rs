@@ -7,7 +7,7 @@
 //! Between these two ends the hit may still jump, where the box holds rays over a crest and rays into it. It does not where every ray
 //! of the box sinks into the surface all the way from end to end: then each meets it once, and the hit moves with the ray.
 
-use glam::DVec2;
+use glam::{DVec2, I64Vec2};
 
 use super::slopes::stays_around;
 use super::{FEW_ULPS, Surface, TOLERANCE_TEXELS, ulps};
@@ -45,14 +45,23 @@ impl Surface<'_> {
 
     /// Whether all rays that are within `moved` of this one, of directions within `travel`, sink into the surface from end to end.
     fn sink(&self, ray: &Ray, [first, last]: [f64; 2], moved: DVec2, travel: DVec2) -> bool {
-        if !stays_around(moved * sides(self.field)) {
+        let moved_texels = moved * sides(self.field);
+        if !stays_around(moved_texels) {
             return false;
         }
         let mut walk = Walk::new(self.field, ray, last);
         loop {
-            // A ray sinks by 1 in a unit of t, and the surface below it must not sink as fast.
-            if walk.exit() >= first && self.least_rise(walk.cell, ray.delta, travel) <= -1.0 {
-                return false;
+            if walk.exit() >= first {
+                // Where rays of the box may be while this one is in the cell, in texels.
+                let [enter, leave] = [walk.t.max(first), walk.exit()].map(|t| walk.origin + t * walk.delta);
+                let cells = [
+                    (enter.min(leave) - moved_texels).floor().as_i64vec2(),
+                    (enter.max(leave) + moved_texels).floor().as_i64vec2(),
+                ];
+                // A ray sinks by 1 in a unit of t, and the surface below it must not sink as fast.
+                if self.least_rise(cells, ray.delta, travel) <= -1.0 {
+                    return false;
+                }
             }
             if walk.is_last() {
                 return true;
@@ -61,10 +70,10 @@ impl Surface<'_> {
         }
     }
 
-    /// The least rise of the surface in a unit of t, in a cell and those around it, along any direction within `travel` of `delta`.
-    fn least_rise(&self, [i, j]: [i64; 2], delta: DVec2, travel: DVec2) -> f64 {
+    /// The least rise of the surface in a unit of t, in cells from one corner to the other, along any direction within `travel` of `delta`.
+    fn least_rise(&self, [low, high]: [I64Vec2; 2], delta: DVec2, travel: DVec2) -> f64 {
         let directions = [delta - travel, delta + travel].map(|end| end * sides(self.field));
-        let cells = (-1..2).flat_map(|y| (-1..2).map(move |x| [i + x, j + y]));
+        let cells = (low.y..=high.y).flat_map(|j| (low.x..=high.x).map(move |i| [i, j]));
         let rise = |cell| {
             let slopes = Patch::new(self.field, self.edge, cell).slopes();
             let along = |axis: usize| {
@@ -168,7 +177,8 @@ mod tests {
             let field = wall(0.9);
             let surface = Surface::new(&field, EdgeMode::Wrap);
             let ray = Ray {
-                uv_top: DVec2::new(0.01 * f64::from(step), 0.4),
+                // Step 50 passes the wall at its crest: 0.0353 + 0.25 + 0.35·0.1 is the middle of column 20.
+                uv_top: DVec2::new(0.0353 + 0.005 * f64::from(step), 0.4),
                 delta: DVec2::new(0.35, 0.02),
             };
             let (entry, travel) = (DVec2::new(0.001, 0.002), DVec2::new(0.0005, 0.001));

@@ -76,11 +76,7 @@ fn shadows_go_with_a_search_and_have_the_rest_beside_them() {
     let one = only(&plan);
     agrees(one);
     assert_eq!(one.features.shadow, Shadow::Soft);
-    for id in [
-        EffectId::Specular,
-        EffectId::NormalMap,
-        EffectId::LightLoop,
-    ] {
+    for id in [EffectId::Specular, EffectId::NormalMap, EffectId::LightLoop] {
         let (kept, reason) = state(one, id);
         assert!(
             kept == State::Kept && reason.contains("changes nothing here"),
