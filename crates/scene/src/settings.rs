@@ -1,6 +1,6 @@
 //! Settings: keys of materials with values in place of the file's, for drawing one scene in two ways.
 //!
-//! A setting is written `KEY=VALUE`, where VALUE is a word (quotes may be left out) or a number. It goes for every material of the
+//! A setting is written `KEY=VALUE`, where VALUE is a word (quotes may be left out), a number, `true` or `false`. It goes for every material of the
 //! scene, and is read and checked like a line of the file; what is wrong with it is shown in the setting.
 
 use std::fmt;
@@ -45,7 +45,6 @@ impl FromStr for Setting {
         if !word(key) {
             return Err(wrong());
         }
-        // No key of a material is a truth value, so `true` is refused here and not taken for a word.
         let line = if word(value) && !matches!(value, "true" | "false") {
             format!("value = \"{value}\"")
         } else {
@@ -63,13 +62,15 @@ impl FromStr for Setting {
 }
 
 impl Setting {
-    /// The value; none where it is neither a word nor a number.
+    /// The value; none where it is neither a word nor a number nor a truth value.
     fn value(&self) -> Option<DeValue<'_>> {
         let table = DeTable::parse(&self.line).ok()?.into_inner();
         let (_, value) = table.into_iter().next().filter(|_| !self.line.contains('\n'))?;
         match value.into_inner() {
-            value @ (DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_)) => Some(value),
-            DeValue::Boolean(_) | DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => None,
+            value @ (DeValue::String(_) | DeValue::Integer(_) | DeValue::Float(_) | DeValue::Boolean(_)) => {
+                Some(value)
+            }
+            DeValue::Datetime(_) | DeValue::Array(_) | DeValue::Table(_) => None,
         }
     }
 
@@ -103,11 +104,12 @@ mod tests {
     use super::Setting;
 
     #[test]
-    fn words_and_numbers_are_settings() {
+    fn words_numbers_and_truth_values_are_settings() {
         for (text, shown) in [
             ("shading=dot3_two_pass", "shading=dot3_two_pass"),
             (" occlusion = 0.5 ", "occlusion=0.5"),
             ("shininess=8", "shininess=8"),
+            ("pixel_depth=true", "pixel_depth=true"),
         ] {
             assert_eq!(text.parse::<Setting>().unwrap().to_string(), shown);
         }
@@ -120,7 +122,7 @@ mod tests {
             "x=[1, 2]",
             "x={a = 1}",
             "x=1\ny=2",
-            "x=true",
+            "x=1979-05-27",
             "x=\"\"\"",
         ] {
             let error = text.parse::<Setting>().unwrap_err();
