@@ -126,63 +126,70 @@ fn relief(material: &Material, at: Field<'_>) -> Option<Refusal> {
 
 /// Why a material cannot have shadows although it asks for them.
 fn shadow(material: &Material, at: Field<'_>) -> Option<Refusal> {
-    if material.shadow == Shadow::None {
-        return None;
-    }
-    let height = at("height");
-    let no = |message: String, hint: String| Some(Refusal::new("shadow", message, hint));
-    let pinned = material.technique.relief();
-    if material.height.is_none() {
-        no(
-            format!("shadows are those of the heights, and there is no `{height}`"),
-            format!("add `{height}` with a map, or set shadow to `none`"),
-        )
-    } else if material.shading != Shading::BlinnPhong {
-        no(
-            format!("shadows do not go with shading `{}`", material.shading.as_str()),
-            "set shading to `blinn_phong`, or shadow to `none`".to_owned(),
-        )
-    } else if pinned.is_some_and(|relief| !relief.is_search()) {
-        no(
-            format!(
-                "technique `{}` finds no place on the relief for a shadow to fall on",
-                material.technique.as_str()
-            ),
-            "set technique to a search such as `relief`, or shadow to `none`".to_owned(),
-        )
-    } else {
-        None
-    }
+    let words = PlaceWords {
+        key: "shadow",
+        off: "shadow to `none`",
+        heights: "shadows are those of the heights",
+        shading: "shadows do not go",
+        place: "for a shadow to fall on",
+    };
+    (material.shadow != Shadow::None)
+        .then(|| without_place(material, at, &words))
+        .flatten()
 }
 
 /// Why a material cannot have the depth of its relief although it asks for it.
 fn pixel_depth(material: &Material, at: Field<'_>) -> Option<Refusal> {
-    if !material.pixel_depth {
-        return None;
-    }
+    let words = PlaceWords {
+        key: "pixel_depth",
+        off: "pixel_depth to false",
+        heights: "the depth would be that of the heights",
+        shading: "the depth of a relief does not go",
+        place: "whose depth it would be",
+    };
+    material
+        .pixel_depth
+        .then(|| without_place(material, at, &words))
+        .flatten()
+}
+
+/// What is said of an effect that shows the place on the relief that a search found.
+struct PlaceWords {
+    key: &'static str,
+    /// How to go without it, after "set".
+    off: &'static str,
+    heights: &'static str,
+    shading: &'static str,
+    place: &'static str,
+}
+
+/// Why a material has no place on its relief that such an effect could show.
+fn without_place(material: &Material, at: Field<'_>, words: &PlaceWords) -> Option<Refusal> {
+    let PlaceWords {
+        key,
+        off,
+        heights,
+        shading,
+        place,
+    } = words;
     let height = at("height");
-    let no = |message: String, hint: String| Some(Refusal::new("pixel_depth", message, hint));
+    let no = |message: String, hint: String| Some(Refusal::new(key, message, hint));
     let pinned = material.technique.relief();
     if material.height.is_none() {
         no(
-            format!("the depth would be that of the heights, and there is no `{height}`"),
-            format!("add `{height}` with a map, or set pixel_depth to false"),
+            format!("{heights}, and there is no `{height}`"),
+            format!("add `{height}` with a map, or set {off}"),
         )
     } else if material.shading != Shading::BlinnPhong {
         no(
-            format!(
-                "the depth of a relief does not go with shading `{}`",
-                material.shading.as_str()
-            ),
-            "set shading to `blinn_phong`, or pixel_depth to false".to_owned(),
+            format!("{shading} with shading `{}`", material.shading.as_str()),
+            format!("set shading to `blinn_phong`, or {off}"),
         )
     } else if pinned.is_some_and(|relief| !relief.is_search()) {
+        let technique = material.technique.as_str();
         no(
-            format!(
-                "technique `{}` finds no place on the relief whose depth it would be",
-                material.technique.as_str()
-            ),
-            "set technique to a search such as `relief`, or pixel_depth to false".to_owned(),
+            format!("technique `{technique}` finds no place on the relief {place}"),
+            format!("set technique to a search such as `relief`, or {off}"),
         )
     } else {
         None
